@@ -1,0 +1,32 @@
+// From scene text to a problem, or to diagnostics: a pure function of the text.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "common/diagnostic.h"
+#include "common/problem.h"
+
+namespace spacetime::symbolic {
+
+struct Statistics {
+  double tree_nodes = 0;           // of everything emitted, counted as a tree
+  std::size_t shared_nodes = 0;    // the same, shared
+  std::size_t operations = 0;      // in all programs
+  std::size_t programs = 0;
+  struct {
+    double parse = 0, build = 0, differentiate = 0, emit = 0, total = 0;
+  } milliseconds;
+};
+
+struct Compilation {
+  std::optional<Problem> problem;       // only without diagnostics
+  std::vector<Diagnostic> diagnostics;  // in the order of the text
+  Statistics statistics;
+};
+
+Compilation compile(std::string_view text);
+
+}  // namespace spacetime::symbolic
