@@ -1,0 +1,93 @@
+#include "symbolic/parser.h"
+
+#include <string>
+
+#include "symbolic/nearest.h"
+#include "symbolic/parse_statement.h"
+
+namespace spacetime::symbolic {
+namespace {
+
+void unknown_statement(Parsing& p, const Token& word) {
+  if (word.kind == TokenKind::bad) return p.in.fail("");
+  if (word.kind != TokenKind::name) return p.in.fail("a statement such as 'dof', 'constrain' or 'solve'");
+  if (p.in.peek().kind == TokenKind::equal)
+    return p.in.fail(word.span, "a statement begins with what it is: write 'constant " + std::string(word.text) +
+                                    " = ...', 'let ...' or 'dof ...'");
+  std::vector<std::string> words(statement_words().begin(), statement_words().end());
+  p.in.fail(word.span, "there is no statement '" + std::string(word.text) + "'" + suggestion(word.text, words));
+}
+
+Statement parse_statement(Parsing& p) {
+  const Token word = p.in.take();
+  Statement out;
+  out.span = word.span;
+  out.word = word.text;
+  std::optional<Name> declared;
+  if (p.in.at(TokenKind::name)) declared = Name{std::string(p.in.peek().text), p.in.peek().span};
+  StatementParser parser = word.kind == TokenKind::name ? declaration_parser(word.text) : nullptr;
+  if (!parser && word.kind == TokenKind::name) parser = action_parser(word.text);
+  if (parser)
+    out.what = parser(p);
+  else
+    unknown_statement(p, word);
+  if (!p.in.failed() && !p.in.at_separator()) p.in.fail("the end of the statement");
+  if (p.in.failed()) out.what = Damaged{declared};
+  return out;
+}
+
+}  // namespace
+
+bool refuse_leading_operator(Parsing& p) {
+  const Token& token = p.in.peek();
+  if (!is_operator(token)) return false;
+  p.in.fail(token.span, token.line_start ? "a line cannot begin with " + describe(token) +
+                                               ": put it at the end of the line before, so that that line goes on"
+                                         : "a statement cannot begin with " + describe(token));
+  return true;
+}
+
+bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target) {
+  const Token opened = p.in.peek();
+  if (!p.in.expect(TokenKind::left_brace, "'{'")) return true;
+  bool damaged = false;
+  while (true) {
+    while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
+    if (p.in.accept(TokenKind::right_brace)) return damaged;
+    if (p.in.at(TokenKind::end) || p.in.at_statement()) {
+      p.in.fail(p.in.peek().span,
+                "expected '}' to close '" + std::string(owner) + " {', found " + describe(p.in.peek()),
+                {{opened.span, "it is opened here"}});
+      return true;
+    }
+    if (!refuse_leading_operator(p)) item(p, target);
+    if (!p.in.failed() && !p.in.at_separator() && !p.in.at(TokenKind::right_brace))
+      p.in.fail("the end of the item (a line end, ';' or '}')");
+    if (p.in.failed()) {
+      damaged = true;
+      p.in.recover();
+    }
+  }
+}
+
+Scene parse(std::string_view text, std::vector<Diagnostic>& diagnostics) {
+  Scene scene;
+  Lexed lexed = lex(text, diagnostics);
+  if (!lexed.is_text) return scene;
+  Parsing p{TokenReader(std::move(lexed.tokens), diagnostics), scene};
+  while (true) {
+    while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
+    if (p.in.at(TokenKind::end)) return scene;
+    if (refuse_leading_operator(p)) {
+      p.in.take();
+    } else {
+      scene.statements.push_back(parse_statement(p));
+    }
+    if (p.in.failed()) {
+      p.in.recover();
+      if (p.in.at(TokenKind::right_brace)) p.in.take();  // the end of a block that has been given up
+    }
+  }
+}
+
+}  // namespace spacetime::symbolic

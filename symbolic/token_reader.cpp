@@ -1,0 +1,137 @@
+#include "symbolic/token_reader.h"
+
+#include <algorithm>
+
+namespace spacetime::symbolic {
+
+const std::vector<std::string_view>& statement_words() {
+  static const std::vector<std::string_view> words{
+      "time",    "constant",  "parameter", "trajectory", "dof",     "let",     "define", "eliminate", "creature",
+      "script",  "constrain", "minimize",  "keyframe",   "solve",   "iterate", "window", "refine",    "shake",
+      "filter",  "damp",      "adapt",     "lock",       "set",     "weight",  "enable", "disable",   "delete",
+      "replace", "scope",     "bound",     "key",        "control", "reset"};
+  return words;
+}
+
+bool TokenReader::at_statement() const {
+  const Token& token = peek();
+  if (token.kind != TokenKind::name || !token.line_start) return false;
+  const auto& words = statement_words();
+  if (std::find(words.begin(), words.end(), token.text) == words.end()) return false;
+  // The words are no reserved names: what follows tells a statement from a name that begins a continued line.
+  switch (next().kind) {
+    case TokenKind::name:
+      return !is_operator(next());
+    case TokenKind::number:
+    case TokenKind::left_bracket:
+      return true;
+    case TokenKind::line_end:
+    case TokenKind::semicolon:
+    case TokenKind::end:
+      return token.text == "solve" || token.text == "reset";
+    default:
+      return false;
+  }
+}
+
+void TokenReader::skip_line_ends() {
+  while (brackets_ > 0 && at(TokenKind::line_end)) ++i_;
+}
+
+const Token& TokenReader::take() {
+  const Token& token = tokens_[i_];
+  if (token.kind != TokenKind::end) ++i_;
+  skip_line_ends();
+  return token;
+}
+
+bool TokenReader::accept(TokenKind kind) {
+  if (failed_ || !at(kind)) return false;
+  take();
+  return true;
+}
+
+bool TokenReader::accept_word(std::string_view word) {
+  if (failed_ || !at_word(word)) return false;
+  take();
+  return true;
+}
+
+bool TokenReader::expect(TokenKind kind, std::string_view what) {
+  if (accept(kind)) return true;
+  fail(what);
+  return false;
+}
+
+bool TokenReader::expect_word(std::string_view word) {
+  if (accept_word(word)) return true;
+  fail("'" + std::string(word) + "'");
+  return false;
+}
+
+Token TokenReader::open(TokenKind kind, std::string_view what) {
+  const Token token = peek();
+  if (!failed_ && at(kind)) {
+    ++brackets_;
+    take();
+  } else {
+    fail(what);
+  }
+  return token;
+}
+
+bool TokenReader::close(TokenKind kind, const Token& opened) {
+  if (failed_) return false;
+  if (at(kind)) {
+    --brackets_;
+    take();
+    return true;
+  }
+  const std::string bracket = kind == TokenKind::right_paren ? "')'" : "']'";
+  if (at(TokenKind::bad)) return fail(""), false;
+  fail(peek().span, "expected ',' or " + bracket + ", found " + describe(peek()),
+       {{opened.span, "to close this " + describe(opened)}});
+  return false;
+}
+
+void TokenReader::fail(std::string_view expected) {
+  if (at(TokenKind::bad))
+    failed_ = true;  // reported by the lexer
+  else
+    fail(peek().span, "expected " + std::string(expected) + ", found " + describe(peek()));
+}
+
+void TokenReader::fail(Span span, std::string message, std::vector<Diagnostic::Note> notes) {
+  if (!failed_) diagnostics_.push_back({span, std::move(message), std::move(notes)});
+  failed_ = true;
+}
+
+void TokenReader::recover() {
+  brackets_ = 0;
+  failed_ = false;
+  int depth = 0;  // of brackets of any kind opened while skipping
+  for (; !at(TokenKind::end) && !at_statement(); ++i_) {
+    switch (peek().kind) {
+      case TokenKind::left_paren:
+      case TokenKind::left_bracket:
+      case TokenKind::left_brace:
+        ++depth;
+        break;
+      case TokenKind::right_brace:
+        if (depth == 0) return;
+        [[fallthrough]];
+      case TokenKind::right_paren:
+      case TokenKind::right_bracket:
+        depth = std::max(0, depth - 1);
+        break;
+      case TokenKind::line_end:
+      case TokenKind::semicolon:
+        if (depth == 0) return;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+}  // namespace spacetime::symbolic
