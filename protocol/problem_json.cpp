@@ -1,0 +1,320 @@
+#include "protocol/problem_json.h"
+
+#include <array>
+
+#include "common/assert.h"
+#include "protocol/action_json.h"
+#include "protocol/check.h"
+#include "protocol/limits.h"
+#include "protocol/place_json.h"
+#include "protocol/program_json.h"
+
+namespace spacetime {
+namespace {
+
+// Names of enumerations, in their order.
+constexpr std::array<std::string_view, 2> functional_kinds{"integral", "at"};
+constexpr std::array<std::string_view, 3> piece_kinds{"integral", "at", "once"};
+constexpr std::array<std::string_view, 6> scope_kinds{"once", "times", "every", "count", "knots", "whole"};
+constexpr std::array<std::string_view, 4> shapes{"capsule", "sphere", "box", "none"};
+constexpr std::array<std::string_view, 1> relations{"="};
+
+template <std::size_t n, class Kind>
+std::string_view name_in(const std::array<std::string_view, n>& names, Kind kind) {
+  SPACETIME_ASSERT(static_cast<std::size_t>(kind) < n);
+  return names[static_cast<std::size_t>(kind)];
+}
+
+void member(Writer& to, std::string_view name, const Quantity& quantity) {
+  to.key(name);
+  write(to, quantity);
+}
+
+void member(Writer& to, std::string_view name, const std::optional<Quantity>& quantity) {
+  if (quantity) member(to, name, *quantity);
+}
+
+void member(Writer& to, std::string_view name, const std::vector<Quantity>& quantities) {
+  to.key(name);
+  to.list_of(quantities, [&](const Quantity& quantity) { write(to, quantity); });
+}
+
+std::optional<Quantity> optional_quantity(const Node& node, std::string_view name) {
+  const auto found = node.find(name);
+  return found ? std::optional(quantity_from(*found)) : std::nullopt;
+}
+
+void write(Writer& to, const Constant& constant) {
+  to.object([&] {
+    to.member("name", constant.name);
+    member(to, "value", constant.value);
+    write_place(to, constant.place);
+  });
+}
+
+Constant constant_from(const Node& node) {
+  node.object({"name", "value"}, {"line", "column"});
+  return {node["name"].string(), quantity_from(node["value"]), place_from(node)};
+}
+
+void write(Writer& to, const Dof& dof) {
+  to.object([&] {
+    to.member("name", dof.name);
+    to.key("basis");
+    write(to, dof.basis);
+    member(to, "start", dof.start);
+    write_place(to, dof.place);
+  });
+}
+
+Dof dof_from(const Node& node) {
+  node.object({"name", "basis", "start"}, {"line", "column"});
+  return {node["name"].string(), basis_from(node["basis"]), quantity_from(node["start"]), place_from(node)};
+}
+
+// Functionals and pieces are alike: what is summed, and over which time or at which.
+template <class Summed>
+void write_summed(Writer& to, const Summed& summed, std::string_view kind) {
+  to.object([&] {
+    to.member("kind", kind);
+    to.member("program", summed.program);
+    to.member("output", summed.output);
+    if (summed.kind == Summed::Kind::at) {
+      member(to, "time", summed.from);
+    } else {
+      member(to, "from", summed.from);
+      member(to, "to", summed.to);
+    }
+  });
+}
+
+template <class Summed>
+Summed summed_from(const Node& node, std::span<const std::string_view> kinds) {
+  Summed summed;
+  summed.kind = static_cast<typename Summed::Kind>(node["kind"].choice(kinds));
+  if (summed.kind == Summed::Kind::integral) {
+    node.object({"kind", "program", "output"}, {"from", "to"});
+    summed.from = optional_quantity(node, "from");
+    summed.to = optional_quantity(node, "to");
+  } else if (summed.kind == Summed::Kind::at) {
+    node.object({"kind", "program", "output", "time"});
+    summed.from = quantity_from(node["time"]);
+  } else {
+    node.object({"kind", "program", "output"});
+  }
+  summed.program = node["program"].string();
+  summed.output = node["output"].integer();
+  return summed;
+}
+
+void write(Writer& to, const Scope& scope) {
+  to.object([&] {
+    to.member("kind", name_in(scope_kinds, scope.kind));
+    if (scope.kind == Scope::Kind::times) member(to, "times", scope.times);
+    if (scope.kind == Scope::Kind::once || scope.kind == Scope::Kind::times || scope.kind == Scope::Kind::whole) return;
+    member(to, "from", scope.from);
+    member(to, "to", scope.to);
+    if (scope.kind == Scope::Kind::every) member(to, "step", scope.step);
+    if (scope.kind == Scope::Kind::count) to.member("count", scope.count);
+  });
+}
+
+Scope scope_from(const Node& node) {
+  Scope scope;
+  scope.kind = static_cast<Scope::Kind>(node["kind"].choice(scope_kinds));
+  switch (scope.kind) {
+    case Scope::Kind::once:
+    case Scope::Kind::whole:
+      node.object({"kind"});
+      return scope;
+    case Scope::Kind::times:
+      node.object({"kind", "times"});
+      scope.times = node["times"].each(quantity_from);
+      return scope;
+    case Scope::Kind::every:
+      node.object({"kind", "from", "to", "step"});
+      scope.step = quantity_from(node["step"]);
+      break;
+    case Scope::Kind::count:
+      node.object({"kind", "from", "to", "count"});
+      scope.count = node["count"].integer(2, limits::instances);
+      break;
+    case Scope::Kind::knots:
+      node.object({"kind", "from", "to"});
+      break;
+  }
+  scope.from = quantity_from(node["from"]);
+  scope.to = quantity_from(node["to"]);
+  return scope;
+}
+
+void write(Writer& to, const Constraint& constraint) {
+  to.object([&] {
+    to.member("name", constraint.name);
+    to.member("relation", relations.front());
+    to.member("program", constraint.program);
+    to.key("scope");
+    write(to, constraint.scope);
+    member(to, "weight", constraint.weight);
+    write_place(to, constraint.place);
+  });
+}
+
+Constraint constraint_from(const Node& node) {
+  node.object({"name", "relation", "program", "scope"}, {"weight", "line", "column"});
+  node["relation"].choice(relations);
+  return {node["name"].string(), node["program"].string(), scope_from(node["scope"]), optional_quantity(node, "weight"),
+          place_from(node)};
+}
+
+void write(Writer& to, const Term& term) {
+  to.object([&] {
+    to.member("name", term.name);
+    member(to, "weight", term.weight);
+    to.key("pieces");
+    to.list_of(term.pieces, [&](const Piece& piece) { write_summed(to, piece, name_in(piece_kinds, piece.kind)); });
+    write_place(to, term.place);
+  });
+}
+
+Term term_from(const Node& node) {
+  node.object({"name", "weight", "pieces"}, {"line", "column"});
+  return {node["name"].string(), quantity_from(node["weight"]),
+          node["pieces"].each([](const Node& piece) { return summed_from<Piece>(piece, piece_kinds); }),
+          place_from(node)};
+}
+
+void write(Writer& to, const Keyframe& keyframe) {
+  to.object([&] {
+    member(to, "time", keyframe.time);
+    to.key("keys");
+    to.list_of(keyframe.keys, [&](const Key& key) {
+      to.object([&] {
+        to.member("dof", key.dof);
+        member(to, "value", key.value);
+      });
+    });
+    write_place(to, keyframe.place);
+  });
+}
+
+Keyframe keyframe_from(const Node& node) {
+  node.object({"time", "keys"}, {"line", "column"});
+  const auto key_from = [](const Node& key) {
+    key.object({"dof", "value"});
+    return Key{key["dof"].string(), quantity_from(key["value"])};
+  };
+  return {quantity_from(node["time"]), node["keys"].each(key_from), place_from(node)};
+}
+
+void write(Writer& to, const Plot& plot) {
+  to.object([&] {
+    to.member("name", plot.name);
+    to.member("program", plot.program);
+    to.key("outputs");
+    to.integers(plot.outputs);
+  });
+}
+
+Plot plot_from(const Node& node) {
+  node.object({"name", "program", "outputs"});
+  return {node["name"].string(), node["program"].string(), node["outputs"].integers()};
+}
+
+void write(Writer& to, const Body& body) {
+  to.object([&] {
+    to.member("name", body.name);
+    to.member("shape", name_in(shapes, body.shape));
+    member(to, "size", body.size);
+    to.member("program", body.program);
+    to.key("outputs");
+    to.integers(body.outputs);
+  });
+}
+
+Body body_from(const Node& node) {
+  node.object({"name", "shape", "size", "program", "outputs"});
+  return {static_cast<Body::Shape>(node["shape"].choice(shapes)), node["name"].string(),
+          node["size"].each(quantity_from), node["program"].string(), node["outputs"].integers()};
+}
+
+}  // namespace
+
+void write(Writer& to, const Problem& problem) {
+  const auto statements = [&](std::string_view name, const auto& list) {
+    to.key(name);
+    to.list_of(
+        list, [&](const auto& statement) { write(to, statement); }, Set::in_lines);
+  };
+  to.object(
+      [&] {
+        to.member("format", problem_format);
+        to.key("time");
+        to.numbers(std::array{problem.start, problem.end});
+        statements("constants", problem.constants);
+        statements("dofs", problem.dofs);
+        to.key("programs");
+        to.object(
+            [&] {
+              for (const auto& [name, program] : problem.programs) {
+                to.key(name);
+                write(to, program);
+              }
+            },
+            Set::in_lines);
+        to.key("functionals");
+        to.list_of(
+            problem.functionals,
+            [&](const Functional& functional) {
+              write_summed(to, functional, name_in(functional_kinds, functional.kind));
+            },
+            Set::in_lines);
+        statements("constraints", problem.constraints);
+        statements("objective", problem.objective);
+        statements("keyframes", problem.keyframes);
+        statements("plots", problem.plots);
+        statements("bodies", problem.bodies);
+        statements("actions", problem.actions);
+      },
+      Set::in_lines);
+}
+
+std::string write(const Problem& problem) {
+  Writer to;
+  write(to, problem);
+  return to.take();
+}
+
+Problem problem_from(const Node& node) {
+  static constexpr std::array formats{problem_format};
+  node["format"].choice(formats);
+  node.object({"format", "time", "constants", "dofs", "programs", "functionals", "constraints", "objective",
+               "keyframes", "plots", "bodies", "actions"});
+  Problem problem;
+  const auto time = node["time"];
+  if (time.list() != 2) time.expected("a list of 2 numbers");
+  problem.start = time[0].number();
+  problem.end = time[1].number();
+  problem.constants = node["constants"].each(constant_from);
+  problem.dofs = node["dofs"].each(dof_from);
+  node["programs"].members(
+      [&](const std::string& name, const Node& program) { problem.programs.emplace(name, program_from(program)); });
+  problem.functionals = node["functionals"].each(
+      [](const Node& functional) { return summed_from<Functional>(functional, functional_kinds); });
+  problem.constraints = node["constraints"].each(constraint_from);
+  problem.objective = node["objective"].each(term_from);
+  problem.keyframes = node["keyframes"].each(keyframe_from);
+  problem.plots = node["plots"].each(plot_from);
+  problem.bodies = node["bodies"].each(body_from);
+  problem.actions = node["actions"].each(action_from);
+  return problem;
+}
+
+Problem read_problem(std::string_view json) {
+  const auto tree = parse(json, problem_document);
+  auto problem = problem_from({tree, problem_document});
+  if (auto fault = validate(problem)) throw DocumentError(problem_document, fault->path, fault->message);
+  return problem;
+}
+
+}  // namespace spacetime

@@ -1,0 +1,37 @@
+// Whether a problem or a motion means something: what its form alone does not tell.  Needs no document; a problem that
+// was just compiled can be asked as well as one that was read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/motion.h"
+#include "common/problem.h"
+
+namespace spacetime {
+
+// The first thing that is wrong, and its JSON pointer in the document that the value makes.
+struct Fault {
+  std::string path;
+  std::string message;
+};
+
+// Nothing where the problem can be used without further questions: the time rises; names are unique, and all that is
+// named is there; programs are valid and stand under their hashes; outputs are in range; constants and functionals use
+// only what is before them; quantities use constants alone, and statements that depend on no time no trajectories;
+// knots rise; the limits of limits.h are kept.  What follows from values of constants (times outside the span, steps
+// that are not positive) is checked as far as it is plain numbers; the rest is for who evaluates them.
+std::optional<Fault> validate(const Problem& problem);
+
+// Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,
+// every number is finite, names are unique, and samples are as long as their times.
+std::optional<Fault> validate(const Motion& motion);
+
+// A clamped cubic basis over [start, end]; `path` is the basis's own.
+std::optional<Fault> validate(const Basis& basis, double start, double end, std::string_view path);
+
+// A name: 1 to limits::name_bytes bytes without control characters, which would disturb whoever prints it.
+std::optional<Fault> validate_name(std::string_view name, std::string_view path);
+
+}  // namespace spacetime

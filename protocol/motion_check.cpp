@@ -1,0 +1,119 @@
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+
+#include "protocol/check.h"
+#include "protocol/path.h"
+
+namespace spacetime {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+constexpr std::size_t pose_columns = 12;  // [R | p], 3 x 4 by rows
+
+std::optional<Fault> finite(double number, std::string path) {
+  if (std::isfinite(number)) return std::nullopt;
+  return Fault{std::move(path), "must be finite"};
+}
+
+std::optional<Fault> all_finite(const std::vector<double>& numbers, std::string_view path) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (auto fault = finite(numbers[i], below(path, i))) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_named(const std::vector<std::pair<std::string, double>>& numbers, std::string_view path) {
+  std::unordered_set<std::string_view> names;
+  for (const auto& [name, number] : numbers) {
+    const auto own = below(path, name);
+    if (auto fault = validate_name(name, own)) return fault;
+    if (!names.insert(name).second) return Fault{own, "the name is there twice"};
+    if (auto fault = finite(number, own)) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_table(const Rows& rows, std::size_t times, std::size_t columns, std::string_view path) {
+  if (rows.size() != times) {
+    return Fault{std::string(path), std::to_string(rows.size()) + " rows, but " + std::to_string(times) + " times"};
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto own = below(path, i);
+    if (rows[i].size() != columns) {
+      return Fault{own, std::to_string(rows[i].size()) + " columns, expected " + std::to_string(columns)};
+    }
+    if (auto fault = all_finite(rows[i], own)) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate(const Samples& samples) {
+  if (auto fault = all_finite(samples.times, "/samples/times")) return fault;
+  for (const auto& [name, rows] : samples.values) {
+    const auto path = below("/samples/values", name);
+    if (auto fault = validate_name(name, path)) return fault;
+    if (auto fault = validate_table(rows, samples.times.size(), rows.empty() ? 0 : rows.front().size(), path)) {
+      return fault;
+    }
+  }
+  for (const auto& [name, rows] : samples.poses) {
+    const auto path = below("/samples/poses", name);
+    if (auto fault = validate_name(name, path)) return fault;
+    if (auto fault = validate_table(rows, samples.times.size(), pose_columns, path)) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_dofs(const Motion& motion) {
+  std::unordered_set<std::string_view> names;
+  for (std::size_t i = 0; i < motion.dofs.size(); ++i) {
+    const auto& dof = motion.dofs[i];
+    const auto path = below("/dofs", i);
+    if (auto fault = validate_name(dof.name, path + "/name")) return fault;
+    if (!names.insert(dof.name).second) return Fault{path + "/name", "an earlier one has this name"};
+    if (auto fault = validate(dof.basis, motion.start, motion.end, path + "/basis")) return fault;
+    if (dof.coefficients.size() + 4 != dof.basis.knots.size()) {
+      return Fault{path + "/coefficients", std::to_string(dof.coefficients.size()) + " coefficients, but " +
+                                               std::to_string(dof.basis.knots.size()) + " knots ask for " +
+                                               std::to_string(dof.basis.size())};
+    }
+    if (auto fault = all_finite(dof.coefficients, path + "/coefficients")) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_violations(const Motion& motion) {
+  for (std::size_t i = 0; i < motion.violations.size(); ++i) {
+    const auto& violation = motion.violations[i];
+    const auto path = below("/violation/constraints", i);
+    if (auto fault = validate_name(violation.name, path + "/name")) return fault;
+    if (auto fault = finite(violation.max, path + "/max")) return fault;
+    if (auto fault = finite(violation.time.value_or(0), path + "/time")) return fault;
+    if (violation.line < 0) return Fault{path + "/line", "must not be negative"};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Fault> validate(const Motion& motion) {
+  if (auto fault = finite(motion.start, "/time/0")) return fault;
+  if (auto fault = finite(motion.end, "/time/1")) return fault;
+  if (!(motion.start < motion.end)) return Fault{"/time", "the time must rise"};
+  if (motion.iterations < 0) return Fault{"/iterations", "must not be negative"};
+  if (auto fault = finite(motion.seconds.total, "/seconds/total")) return fault;
+  if (auto fault = finite(motion.seconds.evaluate, "/seconds/evaluate")) return fault;
+  if (auto fault = finite(motion.seconds.factor, "/seconds/factor")) return fault;
+  if (auto fault = finite(motion.objective, "/objective/total")) return fault;
+  if (auto fault = validate_named(motion.terms, "/objective/terms")) return fault;
+  if (auto fault = finite(motion.violation, "/violation/max")) return fault;
+  if (auto fault = validate_violations(motion)) return fault;
+  if (auto fault = validate_dofs(motion)) return fault;
+  if (auto fault = validate_named(motion.constants, "/constants")) return fault;
+  return motion.samples ? validate(*motion.samples) : std::nullopt;
+}
+
+}  // namespace spacetime
