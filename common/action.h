@@ -8,8 +8,8 @@ namespace spacetime {
 
 // Iterate to convergence.
 struct Solve {
-  std::optional<int> iterations;   // at most; the optimizer's own limit where absent
-  double tolerance = 1e-8;         // largest violation in its own units; relative gradient of the Lagrangian
+  std::optional<int> iterations;  // at most; the optimizer's own limit where absent
+  double tolerance = 1e-8;        // largest violation in its own units; relative gradient of the Lagrangian
   bool operator==(const Solve&) const = default;
 };
 

@@ -15,8 +15,8 @@ inline constexpr int max_derivative = 2;  // trajectories are C2
 
 // The four basis functions that do not vanish at a time, with their derivatives.
 struct BasisValues {
-  int first = 0;                                             // index of the first of the four coefficients
-  std::array<std::array<double, 4>, max_derivative + 1> b{}; // b[d][k] = d-th derivative of B_{first+k}, in 1/s^d
+  int first = 0;                                              // index of the first of the four coefficients
+  std::array<std::array<double, 4>, max_derivative + 1> b{};  // b[d][k] = d-th derivative of B_{first+k}, in 1/s^d
 };
 
 // The basis on the given strictly rising breakpoints (both ends among them; at least two).

@@ -39,8 +39,9 @@ struct Trajectory {
 // Sampled expressions and body poses, on request.
 struct Samples {
   std::vector<double> times;
-  std::map<std::string, std::vector<std::vector<double>>> values;  // by plot name: one row a time, one column a component
-  std::map<std::string, std::vector<std::vector<double>>> poses;   // by body name: twelve columns
+  std::map<std::string, std::vector<std::vector<double>>>
+      values;  // by plot name: one row a time, one column a component
+  std::map<std::string, std::vector<std::vector<double>>> poses;  // by body name: twelve columns
   bool operator==(const Samples&) const = default;
 };
 
@@ -50,10 +51,10 @@ struct Motion {
   std::string message;
   int iterations = 0;
   Seconds seconds;
-  double objective = 0;                                // weighted, as minimised
-  std::vector<std::pair<std::string, double>> terms;   // weighted; soft constraints by their names among them
+  double objective = 0;                               // weighted, as minimised
+  std::vector<std::pair<std::string, double>> terms;  // weighted; soft constraints by their names among them
   double violation = 0;
-  std::vector<Violation> violations;                   // hard constraints, in the scene's order
+  std::vector<Violation> violations;  // hard constraints, in the scene's order
   std::vector<Trajectory> dofs;
   std::vector<std::pair<std::string, double>> constants;
   std::optional<Samples> samples;

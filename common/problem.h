@@ -21,9 +21,9 @@ struct Place {
 
 // A number, or one output of a program over constants, re-evaluated whenever a constant is set.
 struct Quantity {
-  double number = 0;       // used where `program` is empty
-  std::string program;     // key into Problem::programs, or empty
-  int output = 0;          // which of the program's values
+  double number = 0;    // used where `program` is empty
+  std::string program;  // key into Problem::programs, or empty
+  int output = 0;       // which of the program's values
   bool operator==(const Quantity&) const = default;
 };
 
@@ -62,12 +62,12 @@ struct Functional {
 // The times at which a statement is sampled.
 struct Scope {
   enum class Kind {
-    once,    // depends on no time: a single instance over functionals, parameters and constants alone
-    times,   // at `times`
-    every,   // from, from + step, ..., and always to
-    count,   // `count` evenly spaced, both ends among them
-    knots,   // from, to and every knot between (the finest basis among the program's degrees of freedom)
-    whole,   // as knots, over the problem's whole time
+    once,   // depends on no time: a single instance over functionals, parameters and constants alone
+    times,  // at `times`
+    every,  // from, from + step, ..., and always to
+    count,  // `count` evenly spaced, both ends among them
+    knots,  // from, to and every knot between (the finest basis among the program's degrees of freedom)
+    whole,  // as knots, over the problem's whole time
   } kind = Kind::whole;
   std::vector<Quantity> times;
   Quantity from, to, step;
@@ -76,8 +76,8 @@ struct Scope {
 };
 
 struct Constraint {
-  std::string name;      // given, or "constraint 3"
-  std::string program;   // its values are the residual's components: left side minus right side
+  std::string name;     // given, or "constraint 3"
+  std::string program;  // its values are the residual's components: left side minus right side
   Scope scope;
   std::optional<Quantity> weight;  // absent: hard.  Soft: adds weight/2 * r^2 for each instance and component
   Place place;
@@ -98,7 +98,7 @@ struct Piece {
   bool operator==(const Piece&) const = default;
 };
 struct Term {
-  std::string name;      // given, or "objective 1"
+  std::string name;  // given, or "objective 1"
   Quantity weight{1, {}, 0};
   std::vector<Piece> pieces;
   Place place;
@@ -129,9 +129,10 @@ struct Plot {
 struct Body {
   enum class Shape { capsule, sphere, box, none } shape = Shape::none;
   std::string name;
-  std::vector<Quantity> size;  // capsule: radius, then the segment's other end x y z in the link's frame; sphere: radius; box: x y z edges
+  std::vector<Quantity> size;  // capsule: radius, then the segment's other end x y z in the link's frame; sphere:
+                               // radius; box: x y z edges
   std::string program;
-  std::vector<int> outputs;    // twelve
+  std::vector<int> outputs;  // twelve
   bool operator==(const Body&) const = default;
 };
 

@@ -18,6 +18,7 @@ namespace spacetime {
 // The instruction set.  The table in program.cpp gives each its name in documents, its number of operands and its
 // meaning; adding an operation is adding a row there, a loop in evaluate_kernels.inl and a rule in
 // symbolic/derivative.cpp.
+// clang-format off
 enum class Op : std::uint8_t {
   add, subtract, multiply, divide, negate, multiply_add,  // multiply_add: a*b + c, rounded once
   absolute, sign, square_root, minimum, maximum,
@@ -26,6 +27,7 @@ enum class Op : std::uint8_t {
   less, less_equal, logical_and, logical_or, logical_not,  // conditions: 1 where true, else 0
   select,                                                  // a where nonzero ? b : c
 };
+// clang-format on
 inline constexpr int op_count = static_cast<int>(Op::select) + 1;
 
 struct OpInfo {
@@ -45,9 +47,9 @@ std::optional<InputKind> input_kind_named(std::string_view name);
 
 struct Input {
   InputKind kind = InputKind::time;
-  std::string name;     // dof, signal, constant, parameter
-  int index = 0;        // functional: into Problem::functionals; multiplier: the value it multiplies
-  int derivative = 0;   // dof, signal: 0, 1 or 2
+  std::string name;    // dof, signal, constant, parameter
+  int index = 0;       // functional: into Problem::functionals; multiplier: the value it multiplies
+  int derivative = 0;  // dof, signal: 0, 1 or 2
   bool operator==(const Input&) const = default;
 };
 
@@ -68,13 +70,13 @@ struct HessianEntry {  // d2 (sum_i multiplier_i values[i]) / d inputs[row] d in
 struct Program {
   std::vector<Input> inputs;
   std::vector<double> numbers;
-  std::vector<Op> op;                       // one row an operation ...
-  std::vector<std::int32_t> a, b, c;        // ... with value indices as operands; unused ones are 0
-  std::vector<std::int32_t> values;         // the statement's outputs c_i
-  std::vector<JacobianEntry> jacobian;      // structurally non-zero entries, by row, then input
-  std::vector<HessianEntry> hessian;        // one lower triangle, by row, then column; empty where all zero
-  std::int32_t value_operations = 0;        // running this many operations computes `values`
-  std::int32_t jacobian_operations = 0;     // ... and this many also `jacobian`; all of them also `hessian`
+  std::vector<Op> op;                    // one row an operation ...
+  std::vector<std::int32_t> a, b, c;     // ... with value indices as operands; unused ones are 0
+  std::vector<std::int32_t> values;      // the statement's outputs c_i
+  std::vector<JacobianEntry> jacobian;   // structurally non-zero entries, by row, then input
+  std::vector<HessianEntry> hessian;     // one lower triangle, by row, then column; empty where all zero
+  std::int32_t value_operations = 0;     // running this many operations computes `values`
+  std::int32_t jacobian_operations = 0;  // ... and this many also `jacobian`; all of them also `hessian`
   bool operator==(const Program&) const = default;
 
   std::int32_t first_operation() const { return static_cast<std::int32_t>(inputs.size() + numbers.size()); }
