@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "symbolic/graph.h"
+#include "symbolic/vector.h"
 
 namespace spacetime::symbolic {
-
-using Vector3 = std::array<Expr, 3>;
-using Matrix3 = std::array<Vector3, 3>;  // rows
 
 // A joint's variable with its two time derivatives: inputs, or (after `eliminate`) any expressions.
 struct Coordinate {
@@ -24,14 +22,14 @@ struct Coordinate {
 // along `axis` (made a unit vector) through `origin`, both in the parent's frame.
 struct Link {
   enum class Joint { revolute, prismatic, fixed } joint = Joint::fixed;
-  int parent = -1;                     // index of an earlier link, -1: ground
+  int parent = -1;                       // index of an earlier link, -1: ground
   std::optional<Coordinate> coordinate;  // revolute, prismatic
-  Expr offset, a, alpha, d, theta;     // metres and radians
+  Expr offset, a, alpha, d, theta;       // metres and radians
   std::optional<Vector3> axis;
   Vector3 origin;
-  Expr mass;                           // kg
-  Vector3 com;                         // centre of mass in the link's frame, m
-  std::array<Expr, 6> inertia;         // about the centre of mass, link axes: ixx iyy izz ixy ixz iyz, kg m^2
+  Expr mass;                    // kg
+  Vector3 com;                  // centre of mass in the link's frame, m
+  std::array<Expr, 6> inertia;  // about the centre of mass, link axes: ixx iyy izz ixy ixz iyz, kg m^2
 };
 
 struct PointForce {
@@ -41,8 +39,8 @@ struct PointForce {
 };
 
 struct Linkage {
-  Vector3 gravity;           // m/s^2, world axes
-  std::vector<Link> links;   // parents before children
+  Vector3 gravity;          // m/s^2, world axes
+  std::vector<Link> links;  // parents before children
   std::vector<PointForce> forces;
 };
 
@@ -59,8 +57,9 @@ Vector3 transform(Graph& graph, const Frame& frame, const Vector3& point);
 // and outside forces accounted for.
 std::vector<Expr> generalised_forces(Graph& graph, const Linkage& linkage);
 
-Vector3 centre_of_mass(Graph& graph, const Linkage& linkage, const std::vector<Frame>& frames);  // total mass must not be zero
+Vector3 centre_of_mass(Graph& graph, const Linkage& linkage,
+                       const std::vector<Frame>& frames);  // total mass must not be zero
 Expr kinetic_energy(Graph& graph, const Linkage& linkage);
-Expr potential_energy(Graph& graph, const Linkage& linkage, const std::vector<Frame>& frames);   // -sum m g.p
+Expr potential_energy(Graph& graph, const Linkage& linkage, const std::vector<Frame>& frames);  // -sum m g.p
 
 }  // namespace spacetime::symbolic
