@@ -48,10 +48,10 @@ class Builder {
     std::string reason = error.what();
     if (const auto start = reason.find("syntax error "); start != reason.npos) reason.erase(0, start + 13);
     if (reason.size() > longest_excerpt) reason.resize(longest_excerpt);
-    if (byte > bytes_) refuse("the text ends too early, at byte " + std::to_string(bytes_) + " (" + reason + ")");
     if (open_.empty() && !root_.is_discarded()) {
       refuse("the text goes on after its end, at byte " + std::to_string(byte) + " (" + reason + ")");
     }
+    if (byte > bytes_) refuse("the text ends too early, at byte " + std::to_string(bytes_) + " (" + reason + ")");
     refuse("not JSON at byte " + std::to_string(byte) + " (" + reason + ")");
   }
 

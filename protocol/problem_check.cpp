@@ -106,8 +106,8 @@ class Check {
         fail("/programs", "more than " + std::to_string(limits::operations) + " operations, the limit of one problem");
       }
       if (auto fault = validate(program)) fail(path + '/' + document_path(fault->path), fault->message);
-      if (const auto own = hash(program); own != key) fail(path, "is not the program's hash, which is " + own);
       needs_.emplace(key, needs_of(program, path));
+      if (const auto own = hash(program); own != key) fail(path, "is not the program's hash, which is " + own);
     }
   }
 
