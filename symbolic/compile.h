@@ -12,9 +12,9 @@
 namespace spacetime::symbolic {
 
 struct Statistics {
-  double tree_nodes = 0;           // of everything emitted, counted as a tree
-  std::size_t shared_nodes = 0;    // the same, shared
-  std::size_t operations = 0;      // in all programs
+  double tree_nodes = 0;         // of everything emitted, counted as a tree
+  std::size_t shared_nodes = 0;  // the same, shared
+  std::size_t operations = 0;    // in all programs
   std::size_t programs = 0;
   struct {
     double parse = 0, build = 0, differentiate = 0, emit = 0, total = 0;

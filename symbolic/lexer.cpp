@@ -3,6 +3,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "symbolic/quoted.h"
+
 namespace spacetime::symbolic {
 namespace {
 
@@ -39,8 +41,8 @@ std::string advice(std::string_view character) {
   if (character == "\xCF\x80") return "write 'pi' in place of this character";
   if (character == "\xE2\x88\x92") return "write '-' in place of this character";
   if (character == "\xE2\x80\x99" || character == "\xE2\x80\xB2") return "write ' in place of this character";
-  return "the character '" + std::string(character) +
-         "' means nothing here; names are made of the letters a-z and A-Z, digits and '_'";
+  return "the character " + quoted(character) +
+         " means nothing here; names are made of the letters a-z and A-Z, digits and '_'";
 }
 
 class Lexer {
@@ -161,7 +163,7 @@ class Lexer {
     const std::string rest(text_.substr(i_ + size, more - size));
     report(here(more), is_letter(rest[0]) && rest[0] != 'e' && rest[0] != 'E'
                            ? "a number runs into a name: write " + digits + "*" + rest + " for a product"
-                           : "'" + digits + rest + "' is not a number: write it as 2, 2.5, .5 or 1e-3");
+                           : quoted(digits + rest) + " is not a number: write it as 2, 2.5, .5 or 1e-3");
     push(TokenKind::bad, more);
   }
 
@@ -271,7 +273,7 @@ std::string describe(const Token& token) {
     case TokenKind::line_end:
       return "the end of the line";
     default:
-      return "'" + std::string(token.text) + "'";
+      return quoted(token.text);
   }
 }
 

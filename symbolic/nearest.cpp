@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "symbolic/quoted.h"
+
 namespace spacetime::symbolic {
 namespace {
 
@@ -46,7 +48,7 @@ std::string nearest(std::string_view wrong, std::span<const std::string> candida
 
 std::string suggestion(std::string_view wrong, std::span<const std::string> candidates) {
   const std::string best = nearest(wrong, candidates);
-  return best.empty() ? std::string() : ": did you mean '" + best + "'?";
+  return best.empty() ? std::string() : ": did you mean " + quoted(best) + "?";
 }
 
 }  // namespace spacetime::symbolic

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "symbolic/parse_statement.h"
+#include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 bool option(Parsing& p, std::string_view word, std::optional<NodeId>& into) {
   const Span span = p.in.peek().span;
   if (!p.in.accept_word(word)) return false;
-  if (into) p.in.fail(span, "'" + std::string(word) + "' stands twice in this statement");
+  if (into) p.in.fail(span, quoted(word) + " stands twice in this statement");
   into = parse_sum(p);
   return true;
 }

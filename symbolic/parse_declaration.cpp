@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "symbolic/parse_statement.h"
+#include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -155,7 +156,7 @@ Relation parse_relation(Parsing& p, NodeId left) {
 
 // Clauses may come in any order, each once.
 bool once(Parsing& p, bool seen) {
-  if (seen) p.in.fail(p.in.peek().span, "'" + std::string(p.in.peek().text) + "' stands twice in this statement");
+  if (seen) p.in.fail(p.in.peek().span, quoted(p.in.peek().text) + " stands twice in this statement");
   return !p.in.failed();
 }
 
@@ -209,8 +210,8 @@ MinimizeDeclaration parse_objective(Parsing& p, NodeId value) {
   MinimizeDeclaration out;
   out.value = value;
   if (p.in.at_word("at") || p.in.at_word("over") || p.in.at_word("when"))
-    p.in.fail(p.in.peek().span, "an objective has no '" + std::string(p.in.peek().text) +
-                                    "': its times stand inside integral( , a, b) or at( , time)");
+    p.in.fail(p.in.peek().span, "an objective has no " + quoted(p.in.peek().text) +
+                                    ": its times stand inside integral( , a, b) or at( , time)");
   out.weight = parse_weight(p);
   return out;
 }

@@ -266,7 +266,7 @@ Name parse_name(Parsing& p, std::string_view what, bool dotted) {
   while (dotted && p.in.accept(TokenKind::dot)) {
     const Token part = p.in.peek();
     if (!p.in.expect(TokenKind::name, "a name after the dot")) break;
-    out.text += "." + std::string(part.text);
+    out.text.append(".").append(part.text);
     out.span = join(out.span, part.span);
   }
   return out;

@@ -4,6 +4,7 @@
 
 #include "symbolic/nearest.h"
 #include "symbolic/parse_statement.h"
+#include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -15,7 +16,7 @@ void unknown_statement(Parsing& p, const Token& word) {
     return p.in.fail(word.span, "a statement begins with what it is: write 'constant " + std::string(word.text) +
                                     " = ...', 'let ...' or 'dof ...'");
   std::vector<std::string> words(statement_words().begin(), statement_words().end());
-  p.in.fail(word.span, "there is no statement '" + std::string(word.text) + "'" + suggestion(word.text, words));
+  p.in.fail(word.span, "there is no statement " + quoted(word.text) + suggestion(word.text, words));
 }
 
 Statement parse_statement(Parsing& p) {

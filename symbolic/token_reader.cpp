@@ -1,4 +1,5 @@
 #include "symbolic/token_reader.h"
+#include "symbolic/quoted.h"
 
 #include <algorithm>
 
@@ -65,7 +66,7 @@ bool TokenReader::expect(TokenKind kind, std::string_view what) {
 
 bool TokenReader::expect_word(std::string_view word) {
   if (accept_word(word)) return true;
-  fail("'" + std::string(word) + "'");
+  fail(quoted(word));
   return false;
 }
 
