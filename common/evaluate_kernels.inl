@@ -141,8 +141,8 @@ void run(const Instruction* begin, const Instruction* end, const Block& block) {
       OP(power): BINARY(pow); break;
       OP(less): map<lanes>([=](V x, V y) { return x < y ? one : zero; }, d, a, b); break;  // false with a NaN
       OP(less_equal): map<lanes>([=](V x, V y) { return x <= y ? one : zero; }, d, a, b); break;
-      OP(logical_and): map<lanes>([=](V x, V y) { return (x != zero) & (y != zero) ? one : zero; }, d, a, b); break;
-      OP(logical_or): map<lanes>([=](V x, V y) { return (x != zero) | (y != zero) ? one : zero; }, d, a, b); break;
+      OP(logical_and): map<lanes>([=](V x, V y) { return ((x != zero) & (y != zero)) ? one : zero; }, d, a, b); break;
+      OP(logical_or): map<lanes>([=](V x, V y) { return ((x != zero) | (y != zero)) ? one : zero; }, d, a, b); break;
       OP(logical_not): map<lanes>([=](V x) { return x != zero ? zero : one; }, d, a); break;  // a NaN is true
       OP(select): map<lanes>([=](V x, V y, V z) { return x != zero ? y : z; }, d, a, b, c); break;
       case store_code: store<lanes>(block, i->d, a); break;

@@ -15,7 +15,7 @@ std::string_view name_of(Status status) {
     case Status::failed:
       return "failed";
   }
-  SPACETIME_ASSERT(!"a status of the enumeration");
+  SPACETIME_ASSERT(false && "a status of the enumeration");
   return {};
 }
 
