@@ -1,0 +1,116 @@
+// spacetime-optimizer: from a problem to a motion.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/diagnostic.h"
+#include "common/files.h"
+#include "optimizer/run.h"
+#include "optimizer/summary.h"
+#include "protocol/motion_json.h"
+#include "protocol/problem_json.h"
+
+namespace {
+
+using namespace spacetime;
+
+enum Exit { converged = 0, bad_input = 1, stopped = 2, infeasible = 3 };
+
+volatile sig_atomic_t interrupts = 0;
+
+// The first Ctrl-C ends the run, with the motion reached; the second ends the program.
+void on_interrupt(int) {
+  interrupts = interrupts + 1;
+  if (interrupts > 1) _exit(128 + SIGINT);
+}
+
+struct Arguments {
+  std::string problem = "-", output = "-", start;
+  double samples = 0;
+  std::optional<double> tolerance;
+  std::optional<int> iterations;
+  std::vector<std::string> show;
+  bool quiet = false;
+};
+
+int exit_code(Status status) {
+  switch (status) {
+    case Status::converged: return converged;
+    case Status::infeasible: return infeasible;
+    case Status::stopped:
+    case Status::failed: break;
+  }
+  return stopped;
+}
+
+int solve(const Arguments& arguments) {
+  const Problem problem = read_problem(read_text(arguments.problem));
+  optimizer::RunOptions options;
+  if (!arguments.start.empty()) options.start = read_motion(read_text(arguments.start));
+  options.tolerance = arguments.tolerance;
+  options.iterations = arguments.iterations;
+  options.frames_per_second = arguments.samples;
+  options.interrupted = [] { return interrupts > 0; };
+  std::vector<optimizer::Show> shows;
+  for (const std::string& text : arguments.show) shows.push_back(optimizer::parse_show(problem, text));
+  if (!arguments.quiet) {
+    std::cerr << optimizer::question(problem) << optimizer::heading();
+    options.progress = [](const optimizer::Progress& progress) { std::cerr << optimizer::line(progress); };
+  }
+
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+
+  const Motion motion = optimizer::run(problem, options);
+  write_text(arguments.output, write(motion));
+  if (!arguments.quiet) std::cerr << optimizer::summary(problem, motion, shows);
+  return exit_code(motion.status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Turns a problem into a motion: finds the trajectories that keep the constraints and are best.",
+               "spacetime-optimizer"};
+  app.set_version_flag("--version", "spacetime-optimizer " SPACETIME_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example:\n  spacetime-symbolic compile examples/throw.scene | spacetime-optimizer solve > throw.motion.json");
+
+  Arguments arguments;
+  CLI::App* command = app.add_subcommand(
+      "solve", "Runs the problem's actions, or solves where it has none.\n"
+               "Exits 0 when converged, 2 when it stopped short of the tolerance (the motion is still written),\n"
+               "3 when no feasible motion was found, 1 on bad input.");
+  command->add_option("problem", arguments.problem, "The problem, a file or - for standard input")->capture_default_str();
+  command->add_option("-o,--output", arguments.output, "Where the motion goes, - for standard output")->capture_default_str();
+  command->add_option("--start", arguments.start, "A motion to start from, instead of the keyframes");
+  command->add_option("--samples", arguments.samples,
+                      "Frames per second: also writes plotted expressions and body poses at that rate")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--tolerance", arguments.tolerance, "In place of the actions' own")->check(CLI::PositiveNumber);
+  command->add_option("--iterations", arguments.iterations, "At most so many a solve, in place of the actions' own")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--show", arguments.show,
+                      "NAME@TIME: tell a plotted expression at a time (seconds, or a constant's name) in the summary");
+  command->add_flag("-q,--quiet", arguments.quiet, "No table of iterations and no summary on standard error");
+
+  try {
+    app.parse(argc, argv);
+    return solve(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  } catch (const InputError& error) {
+    std::cerr << "spacetime-optimizer: error: " << error.what() << '\n';
+  } catch (const std::bad_alloc&) {
+    std::cerr << "spacetime-optimizer: error: the problem needs more memory than there is\n";
+  }
+  return bad_input;
+}

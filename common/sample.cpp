@@ -1,0 +1,88 @@
+#include "common/sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/bspline.h"
+#include "common/evaluate.h"
+
+namespace spacetime {
+namespace {
+
+// A program's values along a motion.
+struct Rows {
+  std::vector<double> data;
+  std::size_t samples = 0;
+  double operator()(int output, std::size_t sample) const { return data[output * samples + sample]; }
+};
+
+Rows run(const Program& program, const Motion& motion, std::span<const double> functionals,
+         std::span<const double> times) {
+  std::vector<std::vector<double>> inputs;
+  std::vector<const double*> pointers;
+  std::vector<std::uint8_t> uniform;
+  for (const Input& input : program.inputs) {
+    std::vector<double> values{0.0};
+    switch (input.kind) {
+      case InputKind::dof: {
+        const auto& dof = *std::ranges::find(motion.dofs, input.name, &Trajectory::name);
+        values.clear();
+        for (const double t : times) values.push_back(value(dof.basis, dof.coefficients, t, input.derivative));
+        break;
+      }
+      case InputKind::time: values.assign(times.begin(), times.end()); break;
+      case InputKind::constant:
+        for (const auto& [name, constant] : motion.constants) {
+          if (name == input.name) values[0] = constant;
+        }
+        break;
+      case InputKind::functional: values[0] = functionals[input.index]; break;
+      case InputKind::signal:
+      case InputKind::parameter:
+      case InputKind::multiplier: break;
+    }
+    uniform.push_back(input.kind != InputKind::dof && input.kind != InputKind::time);
+    inputs.push_back(std::move(values));
+  }
+  for (const auto& values : inputs) pointers.push_back(values.data());
+  const Evaluator evaluator(program);
+  Rows rows{std::vector<double>(evaluator.outputs(Depth::values) * times.size()), times.size()};
+  evaluator.run(Depth::values, times.size(), pointers, uniform, rows.data.data(), times.size());
+  return rows;
+}
+
+std::vector<std::vector<double>> table(const Rows& rows, std::span<const int> outputs) {
+  std::vector<std::vector<double>> result(rows.samples);
+  for (std::size_t s = 0; s < rows.samples; ++s) {
+    for (const int output : outputs) result[s].push_back(rows(output, s));
+  }
+  return result;
+}
+
+}  // namespace
+
+Samples sample(const Problem& problem, const Motion& motion, std::span<const double> functionals,
+               std::span<const double> times) {
+  Samples samples;
+  samples.times.assign(times.begin(), times.end());
+  std::map<std::string, Rows> rows;
+  const auto rows_of = [&](const std::string& hash) -> const Rows& {
+    const auto found = rows.find(hash);
+    if (found != rows.end()) return found->second;
+    return rows.emplace(hash, run(problem.programs.at(hash), motion, functionals, times)).first->second;
+  };
+  for (const Plot& plot : problem.plots) samples.values[plot.name] = table(rows_of(plot.program), plot.outputs);
+  for (const Body& body : problem.bodies) samples.poses[body.name] = table(rows_of(body.program), body.outputs);
+  return samples;
+}
+
+std::vector<double> frame_times(double start, double end, double rate) {
+  std::vector<double> times;
+  const auto frames = static_cast<long>(std::floor((end - start) * rate + 1e-9));
+  for (long k = 0; k <= frames; ++k) times.push_back(std::min(end, start + static_cast<double>(k) / rate));
+  if (times.back() < end) times.push_back(end);
+  return times;
+}
+
+}  // namespace spacetime

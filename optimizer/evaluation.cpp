@@ -1,0 +1,279 @@
+#include "optimizer/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimizer/clones.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+// A batch that has been run: one row of `stride` numbers an output.
+struct Outputs {
+  const double* data;
+  std::size_t stride;
+  double operator()(std::size_t output, int sample) const { return data[output * stride + sample]; }
+  const double* row(std::size_t output) const { return data + output * stride; }
+};
+
+// What multiplies an output of a summed batch in the Lagrangian, for its program's multiplier inputs.
+double multiplier_of(const Target& target, std::span<const double> multipliers) {
+  switch (target.kind) {
+    case Target::Kind::nowhere: break;
+    case Target::Kind::objective: return target.factor;
+    case Target::Kind::functional: return -multipliers[target.index];  // the rows z - F come first, in order
+  }
+  return 0;
+}
+
+SPACETIME_CLONES void gather(const BasisValues* basis, const double* coefficients, int derivative, int samples,
+                             double* result) {
+  for (int s = 0; s < samples; ++s) {
+    const double* b = basis[s].b[derivative].data();
+    const double* c = coefficients + basis[s].first;
+    result[s] = (b[0] * c[0] + b[1] * c[1]) + (b[2] * c[2] + b[3] * c[3]);
+  }
+}
+
+// Runs a batch at x.  Multiplier inputs are read only for Depth::hessian; others see zero.
+Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<const double> x, const Values* values,
+            std::span<const double> multipliers, Workspace& w) {
+  const int samples = batch.samples(), outputs = batch.outputs();
+  const auto& inputs = batch.program->inputs;
+  // Rows a multiple of a cache line long, and never a multiple of the page: those would share cache sets.
+  const std::size_t stride = (static_cast<std::size_t>(samples) + 7) / 8 * 8 + 8;
+  w.inputs.resize(inputs.size() * stride);
+  w.outputs.resize(batch.evaluator->outputs(depth) * stride);
+  w.pointers.resize(inputs.size());
+  w.uniform.assign(inputs.size(), 1);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    double* to = w.inputs.data() + i * stride;
+    w.pointers[i] = to;
+    const Input& input = inputs[i];
+    switch (input.kind) {
+      case InputKind::dof: break;  // below, slot by slot
+      case InputKind::time:
+        w.pointers[i] = batch.times.data();
+        w.uniform[i] = 0;
+        break;
+      case InputKind::constant: *to = t.constants.at(input.name); break;
+      case InputKind::functional: *to = x[t.first_functional() + input.index]; break;
+      case InputKind::multiplier:
+        if (depth != Depth::hessian) {
+          *to = 0;
+        } else if (batch.summed()) {
+          *to = multiplier_of(batch.targets[input.index], multipliers);
+        } else {
+          w.uniform[i] = 0;
+          for (int s = 0; s < samples; ++s) {
+            const int row = batch.first_row + s * outputs + input.index;
+            to[s] = t.rows[row].kind == Row::Kind::soft ? t.rows[row].weight * values->residual[row] : multipliers[row];
+          }
+        }
+        break;
+      case InputKind::signal:
+      case InputKind::parameter: *to = 0; break;  // no problem that is read has any
+    }
+  }
+  for (const Slot& slot : batch.slots) {
+    for (int d = 0; d <= max_derivative; ++d) {
+      if (slot.input[d] < 0) continue;
+      w.uniform[slot.input[d]] = 0;
+      gather(batch.tables[slot.table].data(), x.data() + t.first[slot.dof], d, samples,
+             w.inputs.data() + slot.input[d] * stride);
+    }
+  }
+  batch.evaluator->run(depth, samples, w.pointers, w.uniform, w.outputs.data(), stride);
+  return {w.outputs.data(), stride};
+}
+
+// block(i, j) += scale * sum over (d, e) of  b_d[i] h(d, e) b_e[j], for the samples of one chunk.
+struct HessianTerm {
+  int d, e;
+  const double* h;
+};
+SPACETIME_CLONES void add_block(const HessianTerm* terms, int count, const BasisValues* basis_a,
+                                const BasisValues* basis_b, const double* scale, int from, int to, double* block) {
+  for (int s = from; s < to; ++s) {
+    double v[max_derivative + 1][4] = {};
+    for (int k = 0; k < count; ++k) {
+      const double h = terms[k].h[s] * (scale ? scale[s] : 1.0);
+      const double* b = basis_b[s].b[terms[k].e].data();
+      for (int j = 0; j < 4; ++j) v[terms[k].d][j] += h * b[j];
+    }
+    for (int d = 0; d <= max_derivative; ++d) {
+      const double* b = basis_a[s].b[d].data();
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) block[4 * i + j] += b[i] * v[d][j];
+      }
+    }
+  }
+}
+
+void add_hessian(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
+                 BorderedMatrix& hessian) {
+  const std::size_t base = batch.program->values.size() + batch.program->jacobian.size();
+  const double* scale = batch.summed() ? batch.weights.data() : nullptr;
+  for (const HessianBlock& pattern : batch.hessian) {
+    std::array<HessianTerm, (max_derivative + 1) * (max_derivative + 1)> terms;
+    int count = 0;
+    for (int d = 0; d <= max_derivative; ++d) {
+      for (int e = 0; e <= max_derivative; ++e) {
+        if (pattern.entry[d][e] >= 0) terms[count++] = {d, e, out.row(base + pattern.entry[d][e])};
+      }
+    }
+    const Slot &a = batch.slots[pattern.a], &b = batch.slots[pattern.b];
+    const auto &basis_a = batch.tables[a.table], &basis_b = batch.tables[b.table];
+    for (std::size_t k = 0; k + 1 < batch.chunks.size(); ++k) {
+      const int from = batch.chunks[k];
+      std::array<double, 16> block{};
+      add_block(terms.data(), count, basis_a.data(), basis_b.data(), scale, from, batch.chunks[k + 1], block.data());
+      const int* row = &layout.of_unknown[t.first[a.dof] + basis_a[from].first];
+      const int* column = &layout.of_unknown[t.first[b.dof] + basis_b[from].first];
+      for (int i = 0; i < 4; ++i) {
+        const int last = pattern.a == pattern.b ? i : 3;  // a block on the diagonal: its lower triangle
+        for (int j = 0; j <= last; ++j) {
+          const int high = std::max(row[i], column[j]), low = std::min(row[i], column[j]);
+          hessian.at(high, low) += block[4 * i + j];
+        }
+      }
+    }
+  }
+  for (const FunctionalHessian& pattern : batch.functional_hessian) {
+    const int z = layout.of_unknown[t.first_functional() + pattern.functional];
+    for (int s = 0; s < batch.samples(); ++s) {
+      const double h = out(base + pattern.entry, s) * (scale ? scale[s] : 1.0);
+      if (pattern.other >= 0) {
+        hessian.add(z, layout.of_unknown[t.first_functional() + pattern.other], h);
+        continue;
+      }
+      const Slot& slot = batch.slots[pattern.slot];
+      const BasisValues& basis = batch.basis(slot, s);
+      for (int k = 0; k < 4; ++k) {
+        hessian.add(z, layout.of_unknown[t.first[slot.dof] + basis.first + k], h * basis.b[pattern.derivative][k]);
+      }
+    }
+  }
+}
+
+// Calls visit(sample, output, position, derivative) for every entry of the batch's first derivatives.
+template <typename Visit>
+void for_each_derivative(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
+                         Visit visit) {
+  const std::size_t base = batch.program->values.size();
+  for (const JacobianBlock& pattern : batch.jacobian) {
+    const Slot& slot = batch.slots[pattern.slot];
+    for (int s = 0; s < batch.samples(); ++s) {
+      const BasisValues& basis = batch.basis(slot, s);
+      std::array<double, 4> sum{};
+      for (int d = 0; d <= max_derivative; ++d) {
+        if (pattern.entry[d] < 0) continue;
+        const double j = out(base + pattern.entry[d], s);
+        for (int k = 0; k < 4; ++k) sum[k] += j * basis.b[d][k];
+      }
+      const int* position = &layout.of_unknown[t.first[slot.dof] + basis.first];
+      for (int k = 0; k < 4; ++k) {
+        if (sum[k] != 0) visit(s, pattern.output, position[k], sum[k]);
+      }
+    }
+  }
+  for (const FunctionalJacobian& pattern : batch.functional_jacobian) {
+    const int position = layout.of_unknown[t.first_functional() + pattern.functional];
+    for (int s = 0; s < batch.samples(); ++s) visit(s, pattern.output, position, out(base + pattern.entry, s));
+  }
+}
+
+void add_first_derivatives(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
+                           Linearisation& result) {
+  const int outputs = batch.outputs();
+  for_each_derivative(t, layout, batch, out, [&](int s, int output, int position, double value) {
+    if (!batch.summed()) {
+      result.jacobian.add(layout.of_row[batch.first_row + s * outputs + output], position, value);
+      return;
+    }
+    const Target& target = batch.targets[output];
+    if (target.kind == Target::Kind::objective) result.gradient[position] += batch.weights[s] * target.factor * value;
+    if (target.kind == Target::Kind::functional) {
+      result.jacobian.add(layout.of_row[target.index], position, -batch.weights[s] * value);
+    }
+  });
+}
+
+// The objective's Hessian does not depend on multipliers of rows; everything else's does.
+bool needs_multipliers(const Batch& batch) {
+  return !batch.summed() || std::ranges::any_of(batch.targets, [](const Target& target) {
+           return target.kind == Target::Kind::functional;
+         });
+}
+
+}  // namespace
+
+Values evaluate(const Transcription& t, std::span<const double> x, Workspace& workspace) {
+  Values values;
+  values.terms.assign(t.problem->objective.size(), 0.0);
+  values.residual.assign(t.rows.size(), 0.0);
+  for (int k = 0; k < t.functionals(); ++k) values.residual[k] = x[t.first_functional() + k];  // z - F
+  for (const Batch& batch : t.batches) {
+    const Outputs out = run(t, batch, Depth::values, x, nullptr, {}, workspace);
+    const int outputs = batch.outputs();
+    for (int o = 0; o < outputs; ++o) {
+      if (!batch.summed()) {
+        for (int s = 0; s < batch.samples(); ++s) values.residual[batch.first_row + s * outputs + o] = out(o, s);
+        continue;
+      }
+      double sum = 0;
+      for (int s = 0; s < batch.samples(); ++s) sum += batch.weights[s] * out(o, s);
+      const Target& target = batch.targets[o];
+      if (target.kind == Target::Kind::objective) values.terms[target.index] += target.factor * sum;
+      if (target.kind == Target::Kind::functional) values.residual[target.index] -= sum;
+    }
+  }
+  for (const double term : values.terms) values.objective += term;
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    const double c = values.residual[r];
+    values.finite &= std::isfinite(c);
+    if (t.rows[r].kind == Row::Kind::soft) values.objective += t.rows[r].weight / 2 * c * c;
+  }
+  values.finite &= std::isfinite(values.objective);
+  return values;
+}
+
+Linearisation start_linearisation(const Layout& layout) {
+  return {Eigen::VectorXd::Zero(layout.size()), BorderedMatrix(layout.n, layout.width, layout.border),
+          BorderedMatrix(layout.n, layout.width, layout.border)};
+}
+
+void linearise(const Transcription& t, const Layout& layout, std::span<const double> x, Workspace& workspace,
+               Linearisation& result) {
+  result.gradient.setZero();
+  result.jacobian.set_zero();
+  result.hessian.set_zero();
+  for (int k = 0; k < t.functionals(); ++k) {
+    result.jacobian.add(layout.of_row[k], layout.of_unknown[t.first_functional() + k], 1);
+  }
+  for (const Batch& batch : t.batches) {
+    const bool waits = needs_multipliers(batch);
+    const Outputs out = run(t, batch, waits ? Depth::jacobian : Depth::hessian, x, nullptr, {}, workspace);
+    add_first_derivatives(t, layout, batch, out, result);
+    if (!waits) add_hessian(t, layout, batch, out, result.hessian);
+  }
+}
+
+void add_row_curvature(const Transcription& t, const Layout& layout, std::span<const double> x, const Values& values,
+                       std::span<const double> multipliers, Workspace& workspace, Linearisation& result) {
+  for (const Batch& batch : t.batches) {
+    if (!needs_multipliers(batch) || batch.program->hessian.empty()) continue;
+    add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &values, multipliers, workspace), result.hessian);
+  }
+}
+
+void settle_functionals(const Transcription& t, std::vector<double>& x, Workspace& workspace) {
+  // Each may use those before it: the k-th pass settles at least the k-th.
+  for (int k = 0; k < t.functionals(); ++k) {
+    const Values values = evaluate(t, x, workspace);
+    const double missing = values.residual[k];
+    if (std::isfinite(missing)) x[t.first_functional() + k] -= missing;
+  }
+}
+
+}  // namespace spacetime::optimizer

@@ -1,0 +1,223 @@
+#include "optimizer/kkt.h"
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <cmath>
+
+namespace spacetime::optimizer {
+namespace {
+
+// Regularisation of unknowns, relative to the mean curvature: gives a pivot to what no term of the objective moves.
+constexpr double unknown_regularisation = 1e-9;
+
+// Regularisation of hard rows, relative to the row's size A W^-1 A^T; a row whose size is below `row_floor` of the
+// largest counts as that large, so that a vanishing gradient (an arm that hangs straight) asks for no endless step.
+constexpr double row_regularisation = 1e-8;
+constexpr double row_floor = 1e-4;
+
+// Inertia correction: the shift's unit is this fraction of the mean curvature; the first try, its growth, its decay.
+constexpr double shift_unit = 1e-3;
+constexpr double first_shift = 1e-2, least_shift = 1e-4, most_shift = 1e20;
+constexpr double first_growth = 10, growth = 3;
+
+// Refinement ends when the residual is this small against the right side, or stops falling by half.
+constexpr double small_residual = 1e-13, acceptable_residual = 1e-6;
+constexpr int max_refinements = 8;
+
+// Factor by which a system that does not refine is regularised anew, and how often.
+constexpr double stronger = 1e3;
+constexpr int max_strengthenings = 2;
+
+}  // namespace
+
+Kkt::Kkt(const Transcription& t, const Layout& layout)
+    : role_(layout.size(), Role::unknown),
+      compliance_(Eigen::VectorXd::Zero(layout.size())),
+      rows_(static_cast<int>(t.rows.size())) {
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    const bool soft = t.rows[r].kind == Row::Kind::soft;
+    role_[layout.of_row[r]] = soft ? Role::soft : Role::hard;
+    if (soft) compliance_[layout.of_row[r]] = 1 / t.rows[r].weight;
+  }
+}
+
+// For each hard row, the sum of A_ri^2 / diagonal_i.
+Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const {
+  Eigen::VectorXd sizes = Eigen::VectorXd::Zero(jacobian.size());
+  const auto visit = [&](int i, int j, double a) {
+    if (is_row(i)) {
+      sizes[i] += a * a / diagonal[j];
+    } else {
+      sizes[j] += a * a / diagonal[i];
+    }
+  };
+  for (int j = 0; j < jacobian.n; ++j) {
+    const double* column = jacobian.band.data() + static_cast<std::ptrdiff_t>(j) * (jacobian.width + 1);
+    for (int k = 1; k <= jacobian.width && j + k < jacobian.n; ++k) {
+      if (column[k] != 0) visit(j + k, j, column[k]);
+    }
+  }
+  for (int i = 0; i < jacobian.m; ++i) {
+    for (int j = 0; j < jacobian.n + i; ++j) {
+      if (jacobian.border(i, j) != 0) visit(jacobian.n + i, j, jacobian.border(i, j));
+    }
+  }
+  const double floor = row_floor * std::max(sizes.maxCoeff(), 1e-300);
+  return sizes.cwiseMax(floor);
+}
+
+// The matrix without shift and regularisation, and what regularisation is to be.
+void Kkt::assemble(const Linearisation& linear) {
+  exact_ = linear.hessian;
+  for (std::size_t k = 0; k < exact_.band.size(); ++k) exact_.band[k] += linear.jacobian.band[k];
+  exact_.border += linear.jacobian.border;
+
+  Eigen::VectorXd curvature(exact_.size());
+  double sum = 0;
+  for (int k = 0; k < exact_.size(); ++k) {
+    curvature[k] = std::abs(k < exact_.n ? linear.hessian.at_diagonal(k) : linear.hessian.border(k - exact_.n, k));
+    sum += curvature[k];
+  }
+  const int unknowns = exact_.size() - rows_;
+  const double mean = sum > 0 ? sum / unknowns : 1;
+  scale_ = shift_unit * mean;
+  curvature = curvature.cwiseMax(1e-6 * mean);
+
+  vanishing_ = -row_regularisation * row_sizes(linear.jacobian, curvature);
+  for (int k = 0; k < exact_.size(); ++k) {
+    if (role_[k] == Role::unknown) vanishing_[k] = unknown_regularisation * mean;
+    if (role_[k] == Role::soft) {
+      exact_.add(k, k, -compliance_[k]);
+      vanishing_[k] = 0;
+    }
+  }
+}
+
+bool Kkt::regularise_and_factor(double shift) {
+  regular_ = exact_;
+  for (int k = 0; k < regular_.size(); ++k) {
+    regular_.add(k, k, vanishing_[k] + (role_[k] == Role::unknown ? shift * scale_ : 0.0));
+  }
+  return factorisation_.compute(regular_);
+}
+
+std::optional<double> Kkt::factor(const Linearisation& linear, double hint) {
+  assemble(linear);
+  double shift = 0;
+  for (double next = hint > 0 ? std::max(hint / growth, least_shift) : first_shift;;
+       next *= hint > 0 ? growth : first_growth) {
+    if (regularise_and_factor(shift) && factorisation_.negative() == rows_) break;
+    if (next > most_shift) return std::nullopt;
+    shift = next;
+  }
+  // The shift is meant: refinement must not take it back.
+  for (int k = 0; k < exact_.size(); ++k) {
+    if (role_[k] == Role::unknown) exact_.add(k, k, shift * scale_);
+  }
+  return shift;
+}
+
+std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisation& linear,
+                                                              const Eigen::VectorXd& gradient) {
+  // [ I  A^T ] [ y      ]     [ gradient ]
+  // [ A  0   ] [ lambda ] = - [ 0        ],   soft rows left out
+  exact_ = linear.jacobian;
+  for (int j = 0; j < exact_.n; ++j) {
+    for (int i = j + 1; i <= j + exact_.width && i < exact_.n; ++i) {
+      if (role_[i] == Role::soft || role_[j] == Role::soft) exact_.at(i, j) = 0;
+    }
+    if (role_[j] == Role::soft && exact_.m > 0) exact_.border.col(j).setZero();
+  }
+  for (int i = 0; i < exact_.m; ++i) {
+    if (role_[exact_.n + i] != Role::soft) continue;
+    exact_.border.row(i).setZero();
+    exact_.border.col(exact_.n + i).setZero();
+  }
+  vanishing_ = -row_regularisation * row_sizes(exact_, Eigen::VectorXd::Ones(exact_.size()));
+  Eigen::VectorXd right = -gradient;
+  for (int k = 0; k < exact_.size(); ++k) {
+    if (role_[k] != Role::unknown) right[k] = 0;
+    if (role_[k] != Role::hard) {
+      exact_.add(k, k, 1);
+      vanishing_[k] = 0;
+    }
+  }
+  if (!regularise_and_factor(0)) return std::nullopt;
+  return solve(right);
+}
+
+bool Kkt::factor_feasibility(const Linearisation& linear, double damping) {
+  exact_ = linear.jacobian;
+  const Eigen::VectorXd sizes = row_sizes(exact_, Eigen::VectorXd::Ones(exact_.size()));
+  for (int k = 0; k < exact_.size(); ++k) {
+    // A soft row takes no part: so compliant that it asks nothing.
+    exact_.add(k, k, role_[k] == Role::unknown ? 1 : role_[k] == Role::hard ? -damping * sizes[k] : -1e30);
+  }
+  vanishing_ = Eigen::VectorXd::Zero(exact_.size());
+  return regularise_and_factor(0);
+}
+
+std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) {
+  // The rows' residual may be impossible to remove (rows that contradict one another); the unknowns' must vanish.
+  const auto size_of = [&](const Eigen::VectorXd& residual) {
+    double largest = 0;
+    for (int k = 0; k < residual.size(); ++k) {
+      if (role_[k] == Role::unknown) largest = std::max(largest, std::abs(residual[k]));
+    }
+    return largest;
+  };
+  const double unit = right.cwiseAbs().maxCoeff();
+  for (int attempt = 0; attempt <= max_strengthenings; ++attempt) {
+    if (attempt > 0) {
+      vanishing_ *= stronger;
+      if (!regularise_and_factor(0)) break;
+    }
+    Eigen::VectorXd x = factorisation_.solve(right);
+    Eigen::VectorXd residual = right - multiply(exact_, x);
+    double all = residual.cwiseAbs().maxCoeff();
+    for (int k = 0; k < max_refinements && all > small_residual * unit; ++k) {
+      const Eigen::VectorXd better = x + factorisation_.solve(residual);
+      const Eigen::VectorXd remaining = right - multiply(exact_, better);
+      const double now = remaining.cwiseAbs().maxCoeff();
+      if (!(now < all)) break;
+      const bool slow = now > all / 2;
+      x = better;
+      residual = remaining;
+      all = now;
+      if (slow) break;
+    }
+    if (x.allFinite() && size_of(residual) <= acceptable_residual * unit) return x;
+  }
+  ++pivoted_;
+  return solve_pivoted(right);
+}
+
+// Last resort: a sparse LU with pivoting of the matrix as it was regularised.
+std::optional<Eigen::VectorXd> Kkt::solve_pivoted(const Eigen::VectorXd& right) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  const BorderedMatrix& matrix = regular_;
+  for (int j = 0; j < matrix.n; ++j) {
+    for (int i = j; i <= j + matrix.width && i < matrix.n; ++i) {
+      const double value = matrix.band[static_cast<std::size_t>(j) * (matrix.width + 1) + (i - j)];
+      if (value == 0) continue;
+      entries.emplace_back(i, j, value);
+      if (i != j) entries.emplace_back(j, i, value);
+    }
+  }
+  for (int i = 0; i < matrix.m; ++i) {
+    for (int j = 0; j < matrix.size(); ++j) {
+      if (matrix.border(i, j) == 0) continue;
+      entries.emplace_back(matrix.n + i, j, matrix.border(i, j));
+      if (j < matrix.n) entries.emplace_back(j, matrix.n + i, matrix.border(i, j));
+    }
+  }
+  Eigen::SparseMatrix<double> sparse(matrix.size(), matrix.size());
+  sparse.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(sparse);
+  if (lu.info() != Eigen::Success) return std::nullopt;
+  Eigen::VectorXd x = lu.solve(right);
+  if (!x.allFinite()) return std::nullopt;
+  return x;
+}
+
+}  // namespace spacetime::optimizer

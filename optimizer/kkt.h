@@ -1,0 +1,61 @@
+// The KKT system of one iteration: regularised, factored with the right inertia, solved and refined.
+//
+//   [ W + shift s I   A^T ] [ d  ]     [ g ]      W = Hessian of f + sum lambda c (soft rows' J^T w J left out)
+//   [ A              -E   ] [ l+ ] = - [ c ]      g = gradient of f (soft rows left out)
+//
+// E is 1/w for a soft row, and for a hard row a vanishing number that makes redundant rows harmless: the least-squares
+// point of an over-determined set is found.  Vectors are in the positions of the layout: d at unknowns, l+ at rows.
+// [Cohen92 §3.6.2; quasi-definite regularisation: Vanderbei 1995; inertia correction: Waechter and Biegler 2006, §3.1]
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "optimizer/evaluation.h"
+
+namespace spacetime::optimizer {
+
+class Kkt {
+ public:
+  Kkt(const Transcription& transcription, const Layout& layout);
+
+  // The multipliers of the hard rows that come nearest to making gradient + A^T lambda vanish, at rows' positions.
+  // Nothing where the system cannot be solved.
+  std::optional<Eigen::VectorXd> least_squares_multipliers(const Linearisation& linear, const Eigen::VectorXd& gradient);
+
+  // Factors with the inertia of a minimum: as many negative pivots as rows.  Tries shift 0 first, then from `hint`
+  // upwards.  Returns the shift that was needed, or nothing where none up to the largest is enough.
+  std::optional<double> factor(const Linearisation& linear, double hint);
+
+  // Factors for a step to feasibility alone: the smallest change of the unknowns that, with E = damping * (row's
+  // size), reduces c.  False where it cannot be factored.
+  bool factor_feasibility(const Linearisation& linear, double damping);
+
+  // Solves with what was factored last, refined against the matrix without its vanishing regularisation.  Nothing where
+  // the residual stays large even after a pivoted solve.
+  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& right);
+
+  bool is_row(int position) const { return role_[position] != Role::unknown; }
+  bool is_hard(int position) const { return role_[position] == Role::hard; }
+  int pivoted_solves() const { return pivoted_; }  // last resorts taken so far
+
+ private:
+  enum class Role : unsigned char { unknown, hard, soft };
+  void assemble(const Linearisation& linear);
+  bool regularise_and_factor(double shift);
+  Eigen::VectorXd row_sizes(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const;
+  std::optional<Eigen::VectorXd> solve_pivoted(const Eigen::VectorXd& right) const;
+
+  std::vector<Role> role_;
+  Eigen::VectorXd compliance_;  // 1/w at soft rows, else 0
+  int rows_ = 0;
+
+  BorderedMatrix exact_, regular_;
+  Factorisation factorisation_;
+  Eigen::VectorXd vanishing_;  // what regularisation adds to the diagonal, to be refined away
+  double scale_ = 1;           // unit of the shift: a fraction of the mean curvature
+  int pivoted_ = 0;
+};
+
+}  // namespace spacetime::optimizer

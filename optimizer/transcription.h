@@ -1,0 +1,105 @@
+// From a problem to a finite-dimensional one: unknown coefficients, and programs at fixed times.
+//
+//   minimise  f(x) = sum of the objective's terms + sum over soft rows of w/2 r(x)^2
+//   such that c(x) = 0 in every hard row
+//
+// The unknowns x are the coefficients of all degrees of freedom, one after another, then one number z for each lifted
+// functional F, whose row is z - F(x) = 0.  [Cohen92 §3.4; design, "Numerics"]
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/bspline.h"
+#include "common/evaluate.h"
+#include "common/problem.h"
+#include "optimizer/constants.h"
+
+namespace spacetime::optimizer {
+
+// One scalar equation.
+struct Row {
+  enum class Kind { hard, soft, functional } kind = Kind::hard;
+  int statement = 0;  // index of the constraint, or of the functional
+  double time = 0;    // s; not a number where the relation has none
+  double weight = 0;  // soft
+};
+
+// A degree of freedom that a program uses: its inputs by derivative, -1 where absent.
+struct Slot {
+  int dof = 0;
+  int table = 0;  // into Batch::tables
+  std::array<int, max_derivative + 1> input{-1, -1, -1};
+};
+
+// Derivative entries that belong together: outputs of the evaluator (counted from its first Jacobian or Hessian entry),
+// -1 where structurally zero.
+struct JacobianBlock {  // of output `output` by the derivatives of `slot`
+  int output = 0, slot = 0;
+  std::array<int, max_derivative + 1> entry{-1, -1, -1};
+};
+struct HessianBlock {  // entry[d][e]: by derivative d of slot a and derivative e of slot b
+  int a = 0, b = 0;
+  std::array<std::array<int, max_derivative + 1>, max_derivative + 1> entry{};
+};
+struct FunctionalJacobian {  // of output `output` by a functional
+  int output = 0, functional = 0, entry = 0;
+};
+struct FunctionalHessian {  // by a functional and another (`slot` -1), or by a functional and a slot's derivative
+  int functional = 0, other = -1, slot = -1, derivative = 0, entry = 0;
+};
+
+// Where an output of a summed batch goes.
+struct Target {
+  enum class Kind { nowhere, objective, functional } kind = Kind::nowhere;
+  int index = 0;      // term of the objective, or functional
+  double factor = 1;  // the term's weight
+};
+
+// One program at many times, with what becomes of its outputs:
+//   summed: weights[s] * value of output o goes to targets[o];
+//   rows:   the value is the residual of row first_row + s * outputs + o.
+struct Batch {
+  const Program* program = nullptr;
+  const Evaluator* evaluator = nullptr;
+  std::vector<double> times;    // s, one a sample; not a number where there is none
+  std::vector<double> weights;  // s; summed only
+  std::vector<Target> targets;  // summed only, one an output
+  int first_row = -1;           // rows only
+
+  std::vector<std::vector<BasisValues>> tables;  // one for each distinct basis: one a sample
+  std::vector<Slot> slots;
+  std::vector<int> chunks;  // samples [chunks[k], chunks[k+1]) touch the same coefficients
+  std::vector<JacobianBlock> jacobian;
+  std::vector<HessianBlock> hessian;
+  std::vector<FunctionalJacobian> functional_jacobian;
+  std::vector<FunctionalHessian> functional_hessian;
+
+  bool summed() const { return first_row < 0; }
+  int outputs() const { return static_cast<int>(program->values.size()); }
+  int samples() const { return static_cast<int>(times.size()); }
+  const BasisValues& basis(const Slot& slot, int sample) const { return tables[slot.table][sample]; }
+};
+
+struct Transcription {
+  const Problem* problem = nullptr;
+  Constants constants;
+  std::vector<int> first;  // the first unknown of each degree of freedom, then that of the functionals, then the end
+  std::vector<Row> rows;
+  std::vector<Batch> batches;
+  std::map<std::string, Evaluator> evaluators;  // by program
+
+  int dofs() const { return static_cast<int>(problem->dofs.size()); }
+  int functionals() const { return static_cast<int>(problem->functionals.size()); }
+  int first_functional() const { return first[dofs()]; }
+  int unknowns() const { return first[dofs() + 1]; }
+};
+
+// The problem must be valid (protocol reads only such) and outlive the transcription.  Throws InputError where a
+// scope, weight or bound makes no sense with the constants' present values.
+Transcription transcribe(const Problem& problem);
+
+}  // namespace spacetime::optimizer
