@@ -62,10 +62,12 @@ void report(Model& model, const Span& span, std::string message, std::vector<Dia
 std::string add_program(Model& model, std::span<const Expr> values, Derivatives derivatives) {
   if (!model.diagnostics.empty()) return {};
   const auto start = Clock::now();
-  Program program = emit(model.graph, values, derivatives);
+  double differentiating = 0;
+  Program program = emit(model.graph, values, derivatives, &differentiating);
   std::string key = hash(program);
   model.problem.programs.try_emplace(key, std::move(program));
-  model.emit_milliseconds += milliseconds_since(start);
+  model.differentiate_milliseconds += differentiating;
+  model.emit_milliseconds += milliseconds_since(start) - differentiating;
   return key;
 }
 

@@ -73,6 +73,7 @@ void declare_member(Model& model, Creature& creature, const Name& name) {
   static const std::vector<std::string> taken{"q", "force", "com", "kinetic", "potential", "x", "y", "z"};
   if (std::find(taken.begin(), taken.end(), name.text) != taken.end() || name.text == "ground")
     report(model, name.span, quoted(name.text) + " is taken inside creatures: choose another name");
+  if (is_too_long(model, name)) return;
   const auto [it, fresh] = creature.members.try_emplace(name.text, name.span);
   if (!fresh)
     report(model, name.span,

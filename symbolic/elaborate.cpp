@@ -63,7 +63,8 @@ void damaged(Model& model, const Statement& statement, const Damaged& what) {
     model.trajectory = static_cast<int>(model.trajectories.size());
     model.trajectories.push_back({statement.span, 1, {}});
   }
-  if (what.name && !model.symbols.contains(what.name->text)) declare(model, *what.name, {});
+  if (what.name && !model.symbols.contains(what.name->text) && !is_reserved(what.name->text))
+    declare(model, *what.name, {});
 }
 
 struct Elaborator {

@@ -14,7 +14,8 @@ enum class Derivatives { none, first, second };  // second: with the multiplier-
 // The program that computes `values` with the derivatives asked for, with respect to every unknown input that they
 // use.  Operations that values alone need come first, then what the Jacobian adds, then the Hessian.  A product that
 // is used once, in a sum, becomes multiply_add.
-Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives);
+// `differentiating`, where given, gets the milliseconds spent on derivatives added.
+Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives, double* differentiating = nullptr);
 
 // Sizes.  `tree` counts every node once for each path from a root, without building the tree (inputs and numbers
 // count; it may be astronomically large, hence a double); `shared` counts distinct nodes.

@@ -166,6 +166,10 @@ Value member(Model& model, const Node& node, const Value& operand) {
   }
   if (!need_numbers(model, operand, model.scene.nodes[node.operands[0]].span, "what stands before the dot")) return {};
   const std::size_t index = node.text == "x" ? 0 : node.text == "y" ? 1 : node.text == "z" ? 2 : largest_tuple;
+  if (operand.joint >= 0) {
+    report(model, node.mark, "a degree of freedom has no member " + quoted(node.text) + ", only 'force'");
+    return {};
+  }
   if (index == largest_tuple) {
     report(model, node.mark, article(operand) + " has no " + quoted(node.text) + ": its components are .x .y .z");
     return {};
@@ -190,7 +194,7 @@ Value call(Model& model, const Node& node, const std::vector<Value>& arguments) 
   if (arguments.size() < function->least || arguments.size() > function->most) {
     report(model, node.mark,
            quoted(node.text) + " is written " + std::string(function->usage) + ", but has " +
-               std::to_string(arguments.size()) + " arguments here");
+               std::to_string(arguments.size()) + (arguments.size() == 1 ? " argument here" : " arguments here"));
     return {};
   }
   for (const Value& argument : arguments)

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include "protocol/problem_json.h"
 #include "symbolic/compile.h"
@@ -53,8 +54,10 @@ void print(const spacetime::symbolic::Statistics& s) {
 int compile(const std::string& file, const std::string& output, bool statistics) {
   const std::string text = read(file);
   const auto result = spacetime::symbolic::compile(text);
+  // Columns do not count a byte-order mark.
+  const std::string_view shown = std::string_view(text).substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   for (const auto& diagnostic : result.diagnostics)
-    std::cerr << render(diagnostic, file == "-" ? "<standard input>" : file, text);
+    std::cerr << render(diagnostic, file == "-" ? "<standard input>" : file, shown);
   if (statistics) print(result.statistics);
   if (!result.problem) return 1;
   write(output, spacetime::write(*result.problem));

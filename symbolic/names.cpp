@@ -31,6 +31,12 @@ std::optional<Name> declared_name(const T& declaration) {
 
 }  // namespace
 
+bool is_too_long(Model& model, const Name& name) {
+  if (name.text.size() <= longest_name) return false;
+  report(model, name.span, "a name has at most " + std::to_string(longest_name) + " characters");
+  return true;
+}
+
 bool is_reserved(std::string_view name) {
   return name == "pi" || name == "e" || name == "t" || name == "inf" || name == "and" || name == "or" ||
          name == "not" || function_named(name) != nullptr;
@@ -38,7 +44,7 @@ bool is_reserved(std::string_view name) {
 
 void declare(Model& model, const Name& name, Symbol symbol) {
   symbol.span = name.span;
-  if (name.text.empty()) return;
+  if (name.text.empty() || is_too_long(model, name)) return;
   if (is_reserved(name.text)) {
     if (symbol.declared) report(model, name.span, quoted(name.text) + " is reserved: choose another name");
     return;
@@ -71,7 +77,7 @@ Value look_up(Model& model, const std::string& name, const Span& span) {
 }
 
 std::string statement_name(Model& model, const std::optional<Name>& name, std::string_view kind, std::size_t order) {
-  if (!name) return std::string(kind) + " " + std::to_string(order);
+  if (!name || is_too_long(model, *name)) return std::string(kind) + " " + std::to_string(order);
   if (is_reserved(name->text)) report(model, name->span, quoted(name->text) + " is reserved: choose another name");
   const auto [it, fresh] = model.statement_names.try_emplace(name->text, name->span);
   if (!fresh)

@@ -29,4 +29,9 @@ void note_declarations(Model& model);
 
 bool is_reserved(std::string_view name);
 
+// Reports a name that is too long for sentences and documents: a creature's, with a member's and `.force`, must fit
+// into the 256 bytes that a document's names have.
+inline constexpr std::size_t longest_name = 100;
+bool is_too_long(Model& model, const Name& name);
+
 }  // namespace spacetime::symbolic

@@ -39,6 +39,8 @@ const Word* link_word(const Token& token) {
   return nullptr;
 }
 
+constexpr std::array<std::string_view, 4> creature_words{"gravity", "link", "point", "force"};
+
 bool is_joint(Kind kind) { return kind == Kind::revolute || kind == Kind::prismatic || kind == Kind::fixed; }
 
 LinkItem parse_one(Parsing& p, const Word& word) {
@@ -85,7 +87,7 @@ LinkDeclaration parse_link(Parsing& p, bool& damaged) {
   LinkDeclaration out;
   out.name = parse_name(p, "the link's name");
   if (p.in.accept_word("on")) out.parent = parse_name(p, "the parent link's name, or 'ground'");
-  damaged = parse_braces(p, "link " + out.name.text, parse_link_item, &out) || damaged;
+  damaged = parse_braces(p, "link " + out.name.text, parse_link_item, &out, creature_words) || damaged;
   return out;
 }
 

@@ -88,6 +88,9 @@ NodeId parse_primary(Parsing& p) {
   if (token.kind == TokenKind::name && !is_operator(token) && !p.in.at_statement()) return parse_named(p);
   if (token.kind == TokenKind::left_bracket)
     p.in.fail(token.span, "a list in [ ] cannot stand here: write a tuple with ( )");
+  else if (p.in.at_statement() && is_operator(p.in.previous()))
+    p.in.fail(token.span, "expected a value, found " + describe(token),
+              {{p.in.previous().span, "a line that ends in " + describe(p.in.previous()) + " goes on"}});
   else
     p.in.fail("a value");
   return missing(p);

@@ -1,6 +1,7 @@
 // Statements: each function starts behind the statement's first word.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "symbolic/parse_expression.h"
@@ -31,7 +32,9 @@ std::optional<Interval> parse_bounds(Parsing& p);  // "[in [lo, hi]]"
 // Reports a line that begins with a binary operator.
 bool refuse_leading_operator(Parsing& p);
 
-// "{ item; item }": runs `item` for each, recovering inside the braces.  Returns whether any was lost.
-bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target);
+// "{ item; item }": runs `item` for each, recovering inside the braces.  Returns whether any was lost.  A word of
+// `outer`, which begins items of the block around this one, shows that the closing brace is missing.
+bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target,
+                  std::span<const std::string_view> outer = {});
 
 }  // namespace spacetime::symbolic

@@ -1,5 +1,7 @@
 #include "symbolic/parser.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "symbolic/nearest.h"
@@ -11,7 +13,8 @@ namespace {
 
 void unknown_statement(Parsing& p, const Token& word) {
   if (word.kind == TokenKind::bad) return p.in.fail("");
-  if (word.kind != TokenKind::name) return p.in.fail("a statement such as 'dof', 'constrain' or 'solve'");
+  if (word.kind != TokenKind::name)
+    return p.in.fail(word.span, "expected a statement such as 'dof', 'constrain' or 'solve', found " + describe(word));
   if (p.in.peek().kind == TokenKind::equal)
     return p.in.fail(word.span, "a statement begins with what it is: write 'constant " + std::string(word.text) +
                                     " = ...', 'let ...' or 'dof ...'");
@@ -19,13 +22,24 @@ void unknown_statement(Parsing& p, const Token& word) {
   p.in.fail(word.span, "there is no statement " + quoted(word.text) + suggestion(word.text, words));
 }
 
+// What a statement would declare if it turns out to be damaged: the word behind the first, where that says so or is
+// misspelt in front of '=' or '{'.
+std::optional<Name> declared_name(const Parsing& p, const Token& word) {
+  static constexpr std::array<std::string_view, 7> declaring{"constant", "parameter", "dof",   "let",
+                                                             "define",   "creature",  "script"};
+  if (!p.in.at(TokenKind::name)) return std::nullopt;
+  const bool declares = std::find(declaring.begin(), declaring.end(), word.text) != declaring.end();
+  const bool misspelt = p.in.next().kind == TokenKind::equal || p.in.next().kind == TokenKind::left_brace;
+  if (!declares && (declaration_parser(word.text) || action_parser(word.text) || !misspelt)) return std::nullopt;
+  return Name{std::string(p.in.peek().text), p.in.peek().span};
+}
+
 Statement parse_statement(Parsing& p) {
   const Token word = p.in.take();
   Statement out;
   out.span = word.span;
   out.word = word.text;
-  std::optional<Name> declared;
-  if (p.in.at(TokenKind::name)) declared = Name{std::string(p.in.peek().text), p.in.peek().span};
+  const std::optional<Name> declared = declared_name(p, word);
   StatementParser parser = word.kind == TokenKind::name ? declaration_parser(word.text) : nullptr;
   if (!parser && word.kind == TokenKind::name) parser = action_parser(word.text);
   if (parser)
@@ -48,14 +62,17 @@ bool refuse_leading_operator(Parsing& p) {
   return true;
 }
 
-bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target) {
+bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target,
+                  std::span<const std::string_view> outer) {
   const Token opened = p.in.peek();
   if (!p.in.expect(TokenKind::left_brace, "'{'")) return true;
   bool damaged = false;
   while (true) {
     while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
     if (p.in.accept(TokenKind::right_brace)) return damaged;
-    if (p.in.at(TokenKind::end) || p.in.at_statement()) {
+    const bool left =
+        p.in.at(TokenKind::name) && std::find(outer.begin(), outer.end(), p.in.peek().text) != outer.end();
+    if (p.in.at(TokenKind::end) || p.in.at_statement() || left) {
       p.in.fail(p.in.peek().span,
                 "expected '}' to close '" + std::string(owner) + " {', found " + describe(p.in.peek()),
                 {{opened.span, "it is opened here"}});
