@@ -84,6 +84,10 @@ bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, voi
     if (p.in.failed()) {
       damaged = true;
       p.in.recover();
+      if (p.in.at(TokenKind::end) || p.in.at_statement()) {  // what is lost takes the closing brace along
+        p.in.give_up();
+        return true;
+      }
     }
   }
 }

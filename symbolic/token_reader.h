@@ -40,6 +40,8 @@ class TokenReader {
   void fail(std::string_view expected);  // "expected ..., found ..." here
   void fail(Span span, std::string message, std::vector<Diagnostic::Note> notes = {});
 
+  void give_up() { failed_ = true; }  // fails without a report
+
   // After a mistake: on to the next separator outside brackets, to the `}` of the block this is in, or to the
   // beginning of a statement, and ready to report again.
   void recover();
