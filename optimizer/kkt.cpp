@@ -24,9 +24,9 @@ constexpr double first_growth = 10, growth = 3;
 constexpr double small_residual = 1e-13, acceptable_residual = 1e-6;
 constexpr int max_refinements = 8;
 
-// Factor by which a system that does not refine is regularised anew, and how often.
-constexpr double stronger = 1e3;
-constexpr int max_strengthenings = 2;
+// A factorisation without pivoting can lose its digits where a leading block is nearly singular, which refinement
+// tells.  A stronger shift moves away from there; after so many attempts a pivoted solve takes over.
+constexpr int max_attempts = 4;
 
 }  // namespace
 
@@ -101,11 +101,11 @@ bool Kkt::regularise_and_factor(double shift) {
   return factorisation_.compute(regular_);
 }
 
-std::optional<double> Kkt::factor(const Linearisation& linear, double hint) {
+std::optional<double> Kkt::factor(const Linearisation& linear, double hint, double at_least) {
   assemble(linear);
-  double shift = 0;
-  for (double next = hint > 0 ? std::max(hint / growth, least_shift) : first_shift;;
-       next *= hint > 0 ? growth : first_growth) {
+  double shift = at_least;
+  const double from = std::max(hint > 0 ? std::max(hint / growth, least_shift) : first_shift, 2 * at_least);
+  for (double next = from;; next *= hint > 0 ? growth : first_growth) {
     if (regularise_and_factor(shift) && factorisation_.negative() == rows_) break;
     if (next > most_shift) return std::nullopt;
     shift = next;
@@ -115,6 +115,20 @@ std::optional<double> Kkt::factor(const Linearisation& linear, double hint) {
     if (role_[k] == Role::unknown) exact_.add(k, k, shift * scale_);
   }
   return shift;
+}
+
+std::optional<Kkt::Step> Kkt::step(const Linearisation& linear, const Eigen::VectorXd& right, double hint) {
+  double at_least = 0;
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
+    const auto shift = factor(linear, hint, at_least);
+    if (!shift) return std::nullopt;
+    if (auto solution = solve(right)) return Step{std::move(*solution), *shift};
+    at_least = std::max(first_growth * *shift, first_shift);
+  }
+  ++pivoted_;
+  auto solution = solve_pivoted(right);
+  if (!solution) return std::nullopt;
+  return Step{std::move(*solution), at_least / first_growth};
 }
 
 std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisation& linear,
@@ -157,7 +171,7 @@ bool Kkt::factor_feasibility(const Linearisation& linear, double damping) {
   return regularise_and_factor(0);
 }
 
-std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) {
+std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) const {
   // The rows' residual may be impossible to remove (rows that contradict one another); the unknowns' must vanish.
   const auto size_of = [&](const Eigen::VectorXd& residual) {
     double largest = 0;
@@ -167,29 +181,22 @@ std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) {
     return largest;
   };
   const double unit = right.cwiseAbs().maxCoeff();
-  for (int attempt = 0; attempt <= max_strengthenings; ++attempt) {
-    if (attempt > 0) {
-      vanishing_ *= stronger;
-      if (!regularise_and_factor(0)) break;
-    }
-    Eigen::VectorXd x = factorisation_.solve(right);
-    Eigen::VectorXd residual = right - multiply(exact_, x);
-    double all = residual.cwiseAbs().maxCoeff();
-    for (int k = 0; k < max_refinements && all > small_residual * unit; ++k) {
-      const Eigen::VectorXd better = x + factorisation_.solve(residual);
-      const Eigen::VectorXd remaining = right - multiply(exact_, better);
-      const double now = remaining.cwiseAbs().maxCoeff();
-      if (!(now < all)) break;
-      const bool slow = now > all / 2;
-      x = better;
-      residual = remaining;
-      all = now;
-      if (slow) break;
-    }
-    if (x.allFinite() && size_of(residual) <= acceptable_residual * unit) return x;
+  Eigen::VectorXd x = factorisation_.solve(right);
+  Eigen::VectorXd residual = right - multiply(exact_, x);
+  double all = residual.cwiseAbs().maxCoeff();
+  for (int k = 0; k < max_refinements && all > small_residual * unit; ++k) {
+    const Eigen::VectorXd better = x + factorisation_.solve(residual);
+    const Eigen::VectorXd remaining = right - multiply(exact_, better);
+    const double now = remaining.cwiseAbs().maxCoeff();
+    if (!(now < all)) break;
+    const bool slow = now > all / 2;
+    x = better;
+    residual = remaining;
+    all = now;
+    if (slow) break;
   }
-  ++pivoted_;
-  return solve_pivoted(right);
+  if (!x.allFinite() || !(size_of(residual) <= acceptable_residual * unit)) return std::nullopt;
+  return x;
 }
 
 // Last resort: a sparse LU with pivoting of the matrix as it was regularised.

@@ -24,17 +24,21 @@ class Kkt {
   // Nothing where the system cannot be solved.
   std::optional<Eigen::VectorXd> least_squares_multipliers(const Linearisation& linear, const Eigen::VectorXd& gradient);
 
-  // Factors with the inertia of a minimum: as many negative pivots as rows.  Tries shift 0 first, then from `hint`
-  // upwards.  Returns the shift that was needed, or nothing where none up to the largest is enough.
-  std::optional<double> factor(const Linearisation& linear, double hint);
+  struct Step {
+    Eigen::VectorXd solution;  // d at unknowns, l+ at rows
+    double shift = 0;          // that was needed
+  };
+  // Factors with the inertia of a minimum (as many negative pivots as rows) and solves: shift 0 first, then from `hint`
+  // upwards.  Nothing where no shift is enough.
+  std::optional<Step> step(const Linearisation& linear, const Eigen::VectorXd& right, double hint);
 
   // Factors for a step to feasibility alone: the smallest change of the unknowns that, with E = damping * (row's
   // size), reduces c.  False where it cannot be factored.
   bool factor_feasibility(const Linearisation& linear, double damping);
 
   // Solves with what was factored last, refined against the matrix without its vanishing regularisation.  Nothing where
-  // the residual stays large even after a pivoted solve.
-  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& right);
+  // the residual stays large.
+  std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& right) const;
 
   bool is_row(int position) const { return role_[position] != Role::unknown; }
   bool is_hard(int position) const { return role_[position] == Role::hard; }
@@ -43,6 +47,7 @@ class Kkt {
  private:
   enum class Role : unsigned char { unknown, hard, soft };
   void assemble(const Linearisation& linear);
+  std::optional<double> factor(const Linearisation& linear, double hint, double at_least);
   bool regularise_and_factor(double shift);
   Eigen::VectorXd row_sizes(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const;
   std::optional<Eigen::VectorXd> solve_pivoted(const Eigen::VectorXd& right) const;

@@ -25,7 +25,8 @@ constexpr double sufficient_decrease = 1e-4;
 constexpr double switch_descent_power = 2.3, switch_violation_power = 1.1;
 constexpr double most_violation_factor = 1e4, small_violation_factor = 1e-4;
 constexpr double rounding = 1e-13;  // of the objective: differences below are noise
-constexpr int corrections = 2;      // second-order corrections tried at full step
+constexpr int corrections = 2;      // second-order corrections tried at each length
+constexpr double fair_price = 10;   // times sum |lambda c|: most that reducing a small violation may cost
 
 // The inertia correction decays by this after a step that needed none, and is forgotten below the least.
 constexpr double shift_decay = 3, least_shift = 1e-6;
@@ -71,11 +72,11 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   return largest;
 }
 
-Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& direction, double length) {
+Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& change) const {
   const Stopwatch watch(state.seconds.evaluate);
   Trial trial;
   trial.x = state.x;
-  for (int u = 0; u < t_.unknowns(); ++u) trial.x[u] += length * direction[layout_.of_unknown[u]];
+  for (int u = 0; u < t_.unknowns(); ++u) trial.x[u] += change[layout_.of_unknown[u]];
   trial.values = evaluate(t_, trial.x, workspace_);
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     if (t_.rows[r].kind != Row::Kind::soft) trial.sum += std::abs(trial.values.residual[r]);
@@ -163,96 +164,119 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
   if (state.measures.violation <= tolerance && state.measures.stationarity <= tolerance) return StepResult::converged;
   if (state.restore_from > 0) return restore(state, tolerance);
 
-  const Linearisation& linear = state.linear;
-  const Eigen::VectorXd c = residual_of(state.values);
-  Eigen::VectorXd solution;
+  std::optional<Kkt::Step> step;
   {
     const Stopwatch watch(state.seconds.factor);
-    const auto shift = kkt_.factor(linear, state.shift);
-    if (!shift) return StepResult::singular;
-    state.shift_used = *shift;
-    const auto solved = kkt_.solve(-(linear.gradient + c));
-    if (!solved) return StepResult::singular;
-    solution = *solved;
+    step = kkt_.step(state.linear, -(state.linear.gradient + residual_of(state.values)), state.shift);
   }
-  state.shift = state.shift_used > 0 ? state.shift_used : state.shift / shift_decay;
+  if (!step) return StepResult::singular;
+  state.shift_used = step->shift;
+  state.shift = step->shift > 0 ? step->shift : state.shift / shift_decay;
   if (state.shift < least_shift) state.shift = 0;
+  return search(state, model_of(state, step->solution), tolerance);
+}
 
-  // The model: f along d, its curvature, and the Lagrangian with the new multipliers.
-  Eigen::VectorXd d = solution;
+Newton::Model Newton::model_of(const NewtonState& state, const Eigen::VectorXd& solution) const {
+  Model model{solution, solution, 0, 0, 0, 0, 0, 0};
   for (int k = 0; k < layout_.size(); ++k) {
-    if (kkt_.is_row(k)) d[k] = 0;
+    if (kkt_.is_row(k)) model.d[k] = 0;
+    if (!kkt_.is_hard(k)) model.multipliers[k] = 0;
   }
-  const Eigen::VectorXd slope_of_rows = multiply(linear.jacobian, d);
-  double curvature = d.dot(multiply(linear.hessian, d)), pull = 0;
+  const Eigen::VectorXd c = residual_of(state.values), slope = multiply(state.linear.jacobian, model.d);
+  model.size = largest_change(model.d);
+  model.descent = state.gradient.dot(model.d);
+  model.curvature = model.d.dot(multiply(state.linear.hessian, model.d));
   for (int k = 0; k < layout_.size(); ++k) {
-    if (!kkt_.is_row(k)) continue;
-    curvature += soft_weight_[k] * slope_of_rows[k] * slope_of_rows[k];
-    if (kkt_.is_hard(k)) pull += solution[k] * slope_of_rows[k];
+    if (kkt_.is_row(k)) model.curvature += soft_weight_[k] * slope[k] * slope[k];
+    model.pull += model.multipliers[k] * slope[k];
   }
-  const double descent = state.gradient.dot(d), violation = state.measures.sum, objective = state.values.objective;
-  const auto lagrangian = [&](const Values& values) {
-    double sum = values.objective;
-    for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-      if (kkt_.is_hard(layout_.of_row[r])) sum += solution[layout_.of_row[r]] * values.residual[r];
-    }
-    return sum;
-  };
-  const double lagrangian_here = lagrangian(state.values);
-  const auto model_holds = [&](const Trial& trial, double length, double error) {
-    if (!trial.values.finite) return false;
-    const double predicted = length * (descent + pull) + length * length / 2 * curvature;
-    return std::abs(lagrangian(trial.values) - lagrangian_here - predicted) <=
-           error * std::abs(predicted) + rounding * std::abs(lagrangian_here);
-  };
+  model.lagrangian = lagrangian(model, state.values);
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
+    if (t_.rows[r].kind != Row::Kind::soft) model.price += std::abs(state.multipliers[r] * state.values.residual[r]);
+  }
+  return model;
+}
 
-  enum class Verdict { rejected, objective_step, violation_step };
-  const auto judge_trial = [&](const Trial& trial, double length) {
-    if (!trial.values.finite || !state.filter.admits(trial.sum, trial.values.objective)) return Verdict::rejected;
-    const bool switching = descent < 0 && length * std::pow(-descent, switch_descent_power) >
-                                              std::pow(violation, switch_violation_power);
-    if (violation <= small_violation_factor * state.most_violation && switching) {
-      const double allowed = objective + sufficient_decrease * length * descent + rounding * std::abs(objective);
-      return trial.values.objective <= allowed ? Verdict::objective_step : Verdict::rejected;
-    }
-    const bool better = trial.sum <= (1 - Filter::margin) * violation ||
-                        trial.values.objective <= objective - Filter::margin * violation;
-    return better ? Verdict::violation_step : Verdict::rejected;
-  };
+double Newton::lagrangian(const Model& model, const Values& values) const {
+  return values.objective + model.multipliers.dot(residual_of(values));
+}
 
-  const double size = largest_change(d);
-  Trial trial = try_at(state, d, 1);
-  const bool holds = model_holds(trial, 1, model_error) && trial.sum <= violation_error * violation + tolerance;
+// Whether the Lagrangian changed as predicted, to the given fraction.
+bool Newton::holds(const Model& model, const Trial& trial, double length, double error) const {
+  if (!trial.values.finite) return false;
+  const double predicted = length * (model.descent + model.pull) + length * length / 2 * model.curvature;
+  const double difference = lagrangian(model, trial.values) - model.lagrangian - predicted;
+  return std::abs(difference) <= error * std::abs(predicted) + rounding * std::abs(model.lagrangian);
+}
+
+Newton::Verdict Newton::verdict(const NewtonState& state, const Model& model, const Trial& trial,
+                                double length) const {
+  const double violation = state.measures.sum, objective = state.values.objective, now = trial.values.objective;
+  if (!trial.values.finite || !state.filter.admits(trial.sum, now)) return Verdict::rejected;
+  const double slack = rounding * std::abs(objective);
+  if (violation <= small_violation_factor * state.most_violation) {
+    const bool switching =
+        model.descent < 0 &&
+        length * std::pow(-model.descent, switch_descent_power) > std::pow(violation, switch_violation_power);
+    if (switching) {
+      const bool enough = now <= objective + sufficient_decrease * length * model.descent + slack;
+      return enough ? Verdict::objective_step : Verdict::rejected;
+    }
+    // A violation this small is no reason to give up much of the objective.
+    if (now > objective + fair_price * model.price + slack) return Verdict::rejected;
+  }
+  const bool better =
+      trial.sum <= (1 - Filter::margin) * violation || now <= objective - Filter::margin * violation;
+  return better ? Verdict::violation_step : Verdict::rejected;
+}
+
+// A second-order correction: from the trial point back to where the linearised constraints said it would be, by the
+// smallest change in the metric of the step's own matrix.
+std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& model, const Trial& trial,
+                                               double length) {
+  if (!trial.values.finite) return std::nullopt;
+  const Eigen::VectorXd c = residual_of(state.values);
+  Eigen::VectorXd change = length * model.d;
+  Eigen::VectorXd missed = residual_of(trial.values) - (1 - length) * c;
+  for (int k = 0; k < corrections; ++k) {
+    for (int i = 0; i < layout_.size(); ++i) {
+      if (!kkt_.is_hard(i)) missed[i] = 0;
+    }
+    std::optional<Eigen::VectorXd> back;
+    {
+      const Stopwatch watch(state.seconds.factor);
+      back = kkt_.solve(-missed);
+    }
+    if (!back) return std::nullopt;
+    for (const int position : layout_.of_unknown) change[position] += (*back)[position];
+    if (largest_change(change) > 2 * length * model.size) return std::nullopt;  // no correction any more
+    Trial other = try_at(state, change);
+    if (verdict(state, model, other, length) != Verdict::rejected) return other;
+    if (!other.values.finite) return std::nullopt;
+    missed = residual_of(other.values) - (1 - length) * c;
+  }
+  return std::nullopt;
+}
+
+StepResult Newton::search(NewtonState& state, const Model& model, double tolerance) {
+  const double violation = state.measures.sum, objective = state.values.objective;
+  Trial trial = try_at(state, model.d);
+  const bool trusted = holds(model, trial, 1, model_error) && trial.sum <= violation_error * violation + tolerance;
   double length = 1;
-  if (!holds && size > state.radius) {
-    length = state.radius / size;
-    trial = try_at(state, d, length);
+  if (!trusted && model.size > state.radius) {
+    length = state.radius / model.size;
+    trial = try_at(state, length * model.d);
   }
   const double first_length = length;
-  bool corrected = false;
-  Verdict verdict = judge_trial(trial, length);
-  if (verdict == Verdict::rejected && trial.values.finite) {
-    // Second-order corrections: the same matrix, with the violation met at the trial point.
-    Eigen::VectorXd remaining = length * c + residual_of(trial.values);
-    for (int k = 0; k < corrections && verdict == Verdict::rejected; ++k) {
-      std::optional<Eigen::VectorXd> correction;
-      {
-        const Stopwatch watch(state.seconds.factor);
-        correction = kkt_.solve(-(linear.gradient + remaining));
-      }
-      if (!correction) break;
-      const double corrected_size = largest_change(*correction);
-      Trial other = try_at(state, *correction, std::min(1.0, state.radius / std::max(corrected_size, 1e-300)));
-      verdict = judge_trial(other, length);
-      if (verdict == Verdict::rejected && !other.values.finite) break;
-      remaining += residual_of(other.values);
-      if (verdict != Verdict::rejected) {
-        trial = std::move(other);
-        corrected = true;
-      }
+  bool was_corrected = false;
+  Verdict said = verdict(state, model, trial, length);
+  while (said == Verdict::rejected) {
+    if (auto other = corrected(state, model, trial, length)) {
+      trial = std::move(*other);
+      said = verdict(state, model, trial, length);
+      was_corrected = true;
+      break;
     }
-  }
-  while (verdict == Verdict::rejected) {
     length /= 2;
     if (length < shortest_step) {
       if (violation <= tolerance) return StepResult::exhausted;
@@ -261,18 +285,18 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
       state.damping = first_damping;
       return restore(state, tolerance);
     }
-    trial = try_at(state, d, length);
-    verdict = judge_trial(trial, length);
+    trial = try_at(state, length * model.d);
+    said = verdict(state, model, trial, length);
   }
 
-  if (verdict == Verdict::violation_step) state.filter.add(violation, objective);
-  if (!holds) {
+  if (said == Verdict::violation_step) state.filter.add(violation, objective);
+  if (!trusted) {
     if (length < first_length) {
-      state.radius = std::max(length * size, first_radius);
-    } else if (!corrected && first_length < 1 && model_holds(trial, length, good_model_error)) {
-      state.radius *= radius_growth;
-    } else if (!corrected && !model_holds(trial, length, good_model_error)) {
-      state.radius = std::max(state.radius / radius_growth, first_radius);
+      state.radius = std::max(length * model.size, first_radius);
+    } else if (!was_corrected) {
+      const bool good = holds(model, trial, length, good_model_error);
+      if (good && first_length < 1) state.radius *= radius_growth;
+      if (!good) state.radius = std::max(state.radius / radius_growth, first_radius);
     }
   }
   accept(state, std::move(trial));
@@ -303,7 +327,7 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
     if (!(slope < -stationary_violation * squares)) continue;
     const double size = largest_change(d);
     for (double length = std::min(1.0, state.radius / size); length > 1e-3; length /= 2) {
-      Trial trial = try_at(state, d, length);
+      Trial trial = try_at(state, length * d);
       if (!trial.values.finite) continue;
       double now = 0;
       for (std::size_t r = 0; r < t_.rows.size(); ++r) {

@@ -66,17 +66,35 @@ class Newton {
     Values values;
     double sum = 0;  // of hard violations
   };
+  // The step's direction, and what the quadratic model says along it.
+  struct Model {
+    Eigen::VectorXd d, multipliers;  // at unknowns; at hard rows: new ones
+    double size = 0;                 // largest change of a coefficient
+    double descent = 0;              // of the objective along d
+    double pull = 0;                 // of multipliers * c along d
+    double curvature = 0;            // of the Lagrangian along d
+    double lagrangian = 0;           // here
+    double price = 0;                // of the present violation: sum |multiplier c|
+  };
+  enum class Verdict { rejected, objective_step, violation_step };
 
-  Trial try_at(NewtonState& state, const Eigen::VectorXd& direction, double length);
+  Model model_of(const NewtonState& state, const Eigen::VectorXd& solution) const;
+  double lagrangian(const Model& model, const Values& values) const;
+  bool holds(const Model& model, const Trial& trial, double length, double error) const;
+  Verdict verdict(const NewtonState& state, const Model& model, const Trial& trial, double length) const;
+  std::optional<Trial> corrected(NewtonState& state, const Model& model, const Trial& trial, double length);
+  StepResult search(NewtonState& state, const Model& model, double tolerance);
+  StepResult restore(NewtonState& state, double tolerance);
+
+  Trial try_at(NewtonState& state, const Eigen::VectorXd& change) const;
   void accept(NewtonState& state, Trial trial);
   void judge(NewtonState& state);
-  StepResult restore(NewtonState& state, double tolerance);
   Eigen::VectorXd residual_of(const Values& values) const;
   double largest_change(const Eigen::VectorXd& direction) const;
 
   const Transcription& t_;
   const Layout& layout_;
-  Workspace workspace_;
+  mutable Workspace workspace_;
   Kkt kkt_;
   Eigen::VectorXd soft_weight_;  // w at soft rows' positions, else 0
 };
