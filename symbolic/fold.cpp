@@ -261,7 +261,7 @@ Expr Graph::scaled(Expr coefficient, Expr e) {
   }
   if (is_operation(e, Op::negate)) return negate(scaled(coefficient, node(e).a));
   const bool product = is_operation(e, Op::multiply), quotient = is_operation(e, Op::divide);
-  if ((product || quotient) && is_constant(node(e).a)) {
+  if ((product || quotient) && is_constant(node(e).a) && !is_undefined(e)) {
     const Expr inner = node(e).a, rest = node(e).b;
     if (const auto value = fold_constants(Op::multiply, coefficient, inner, {})) {
       return product ? scaled(*value, rest) : divide(*value, rest);
@@ -329,6 +329,7 @@ Expr Graph::power(Expr a, Expr b) {
 
 // sin and cos of x + k pi with 2k whole are those of x.
 Expr Graph::sine(Expr a) {
+  if (is_operation(a, Op::negate)) return negate(sine(node(a).a));
   if (is_operation(a, Op::add) && node(node(a).b).kind == Kind::pi) {
     const double halves = std::fmod(2 * node(node(a).b).number, 4);
     const Expr x = node(a).a;
@@ -354,6 +355,7 @@ Expr Graph::cosine(Expr a) {
 }
 
 Expr Graph::tangent(Expr a) {
+  if (is_operation(a, Op::negate)) return negate(tangent(node(a).a));
   if (is_operation(a, Op::add) && node(node(a).b).kind == Kind::pi && is_integer(node(node(a).b).number)) {
     return tangent(node(a).a);
   }
