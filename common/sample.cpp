@@ -31,16 +31,21 @@ Rows run(const Program& program, const Motion& motion, std::span<const double> f
         for (const double t : times) values.push_back(value(dof.basis, dof.coefficients, t, input.derivative));
         break;
       }
-      case InputKind::time: values.assign(times.begin(), times.end()); break;
+      case InputKind::time:
+        values.assign(times.begin(), times.end());
+        break;
       case InputKind::constant:
         for (const auto& [name, constant] : motion.constants) {
           if (name == input.name) values[0] = constant;
         }
         break;
-      case InputKind::functional: values[0] = functionals[input.index]; break;
+      case InputKind::functional:
+        values[0] = functionals[input.index];
+        break;
       case InputKind::signal:
       case InputKind::parameter:
-      case InputKind::multiplier: break;
+      case InputKind::multiplier:
+        break;
     }
     uniform.push_back(input.kind != InputKind::dof && input.kind != InputKind::time);
     inputs.push_back(std::move(values));

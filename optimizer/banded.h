@@ -21,7 +21,7 @@ struct BorderedMatrix {
 
   int size() const { return n + m; }
   void set_zero();
-  double at_diagonal(int j) const { return band[static_cast<std::size_t>(j) * (width + 1)]; }  // j < n
+  double at_diagonal(int j) const { return band[static_cast<std::size_t>(j) * (width + 1)]; }     // j < n
   double& at(int i, int j) { return band[static_cast<std::size_t>(j) * (width + 1) + (i - j)]; }  // j <= i < n
 
   // Adds to the entries (i, j) and (j, i), anywhere.
@@ -45,8 +45,8 @@ class Factorisation {
  private:
   void solve_band(double* x) const;
 
-  BorderedMatrix l_;                 // unit lower triangle below, pivots on the diagonal; border: B K^-1
-  Eigen::MatrixXd schur_vectors_;    // S = V diag(values) V^T
+  BorderedMatrix l_;               // unit lower triangle below, pivots on the diagonal; border: B K^-1
+  Eigen::MatrixXd schur_vectors_;  // S = V diag(values) V^T
   Eigen::VectorXd schur_values_;
   int negative_ = 0;
 };

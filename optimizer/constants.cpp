@@ -52,15 +52,16 @@ std::vector<double> scope_times(const Problem& problem, const Constants& constan
   };
   std::vector<double> times;
   double from = problem.start, to = problem.end;
-  const bool interval = scope.kind == Scope::Kind::every || scope.kind == Scope::Kind::count ||
-                        scope.kind == Scope::Kind::knots;
+  const bool interval =
+      scope.kind == Scope::Kind::every || scope.kind == Scope::Kind::count || scope.kind == Scope::Kind::knots;
   if (interval) {
     from = quantity(scope.from, "start of the scope");
     to = quantity(scope.to, "end of the scope");
     require(from <= to, what + ": the scope runs backwards, from " + number(from) + " to " + number(to));
   }
   switch (scope.kind) {
-    case Scope::Kind::once: return {std::numeric_limits<double>::quiet_NaN()};
+    case Scope::Kind::once:
+      return {std::numeric_limits<double>::quiet_NaN()};
     case Scope::Kind::times:
       for (const Quantity& time : scope.times) times.push_back(quantity(time, "time"));
       break;
@@ -94,8 +95,9 @@ std::vector<double> scope_times(const Problem& problem, const Constants& constan
       break;
   }
   for (const double t : times) {
-    require(t >= problem.start && t <= problem.end, what + ": the time " + number(t) + " lies outside the animation's, " +
-                                                        number(problem.start) + " to " + number(problem.end));
+    require(t >= problem.start && t <= problem.end, what + ": the time " + number(t) +
+                                                        " lies outside the animation's, " + number(problem.start) +
+                                                        " to " + number(problem.end));
   }
   return times;
 }

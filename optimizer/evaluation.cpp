@@ -19,9 +19,12 @@ struct Outputs {
 // What multiplies an output of a summed batch in the Lagrangian, for its program's multiplier inputs.
 double multiplier_of(const Target& target, std::span<const double> multipliers) {
   switch (target.kind) {
-    case Target::Kind::nowhere: break;
-    case Target::Kind::objective: return target.factor;
-    case Target::Kind::functional: return -multipliers[target.index];  // the rows z - F come first, in order
+    case Target::Kind::nowhere:
+      break;
+    case Target::Kind::objective:
+      return target.factor;
+    case Target::Kind::functional:
+      return -multipliers[target.index];  // the rows z - F come first, in order
   }
   return 0;
 }
@@ -51,13 +54,18 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
     w.pointers[i] = to;
     const Input& input = inputs[i];
     switch (input.kind) {
-      case InputKind::dof: break;  // below, slot by slot
+      case InputKind::dof:
+        break;  // below, slot by slot
       case InputKind::time:
         w.pointers[i] = batch.times.data();
         w.uniform[i] = 0;
         break;
-      case InputKind::constant: *to = t.constants.at(input.name); break;
-      case InputKind::functional: *to = x[t.first_functional() + input.index]; break;
+      case InputKind::constant:
+        *to = t.constants.at(input.name);
+        break;
+      case InputKind::functional:
+        *to = x[t.first_functional() + input.index];
+        break;
       case InputKind::multiplier:
         if (depth != Depth::hessian) {
           *to = 0;
@@ -72,7 +80,9 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
         }
         break;
       case InputKind::signal:
-      case InputKind::parameter: *to = 0; break;  // no problem that is read has any
+      case InputKind::parameter:
+        *to = 0;
+        break;  // no problem that is read has any
     }
   }
   for (const Slot& slot : batch.slots) {
@@ -202,8 +212,8 @@ void add_first_derivatives(const Transcription& t, const Layout& layout, const B
 // The objective's Hessian does not depend on multipliers of rows; everything else's does.
 bool needs_multipliers(const Batch& batch) {
   return !batch.summed() || std::ranges::any_of(batch.targets, [](const Target& target) {
-           return target.kind == Target::Kind::functional;
-         });
+    return target.kind == Target::Kind::functional;
+  });
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ std::optional<Kkt::Step> Kkt::step(const Linearisation& linear, const Eigen::Vec
     const auto shift = factor(linear, hint, at_least);
     if (!shift) return std::nullopt;
     if (auto solution = solve(right)) return Step{std::move(*solution), *shift};
-    at_least = std::max(first_growth * *shift, first_shift);
+    at_least = std::max(first_growth * *shift, hint > 0 ? std::max(hint / growth, least_shift) : least_shift);
   }
   ++pivoted_;
   auto solution = solve_pivoted(right);

@@ -22,7 +22,8 @@ class Kkt {
 
   // The multipliers of the hard rows that come nearest to making gradient + A^T lambda vanish, at rows' positions.
   // Nothing where the system cannot be solved.
-  std::optional<Eigen::VectorXd> least_squares_multipliers(const Linearisation& linear, const Eigen::VectorXd& gradient);
+  std::optional<Eigen::VectorXd> least_squares_multipliers(const Linearisation& linear,
+                                                           const Eigen::VectorXd& gradient);
 
   struct Step {
     Eigen::VectorXd solution;  // d at unknowns, l+ at rows

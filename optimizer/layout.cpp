@@ -26,8 +26,8 @@ void for_each_coefficient(const Transcription& t, const Batch& batch, int sample
 }
 
 struct Item {
-  double key;     // time, s
-  bool row;       // after coefficients of the same time: its pivot is made by theirs
+  double key;  // time, s
+  bool row;    // after coefficients of the same time: its pivot is made by theirs
   int index;
 };
 
@@ -62,9 +62,8 @@ Layout arrange(const Transcription& t) {
       }
     }
   }
-  std::ranges::stable_sort(items, [](const Item& a, const Item& b) {
-    return a.key != b.key ? a.key < b.key : a.row < b.row;
-  });
+  std::ranges::stable_sort(items,
+                           [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; });
   for (const Item& item : items) (item.row ? layout.of_row : layout.of_unknown)[item.index] = layout.n++;
   for (auto* positions : {&layout.of_unknown, &layout.of_row}) {
     for (int& position : *positions) {

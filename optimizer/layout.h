@@ -12,9 +12,9 @@
 namespace spacetime::optimizer {
 
 struct Layout {
-  int n = 0;       // size of the band
-  int width = 0;   // its half-width: entries lie at most this far below the diagonal
-  int border = 0;  // positions n ... n + border - 1
+  int n = 0;                            // size of the band
+  int width = 0;                        // its half-width: entries lie at most this far below the diagonal
+  int border = 0;                       // positions n ... n + border - 1
   std::vector<int> of_unknown, of_row;  // positions
 
   int size() const { return n + border; }

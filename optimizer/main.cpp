@@ -41,10 +41,13 @@ struct Arguments {
 
 int exit_code(Status status) {
   switch (status) {
-    case Status::converged: return converged;
-    case Status::infeasible: return infeasible;
+    case Status::converged:
+      return converged;
+    case Status::infeasible:
+      return infeasible;
     case Status::stopped:
-    case Status::failed: break;
+    case Status::failed:
+      break;
   }
   return stopped;
 }
@@ -82,18 +85,23 @@ int main(int argc, char** argv) {
                "spacetime-optimizer"};
   app.set_version_flag("--version", "spacetime-optimizer " SPACETIME_VERSION);
   app.require_subcommand(1);
-  app.footer("Example:\n  spacetime-symbolic compile examples/throw.scene | spacetime-optimizer solve > throw.motion.json");
+  app.footer(
+      "Example:\n  spacetime-symbolic compile examples/throw.scene | spacetime-optimizer solve > throw.motion.json");
 
   Arguments arguments;
   CLI::App* command = app.add_subcommand(
-      "solve", "Runs the problem's actions, or solves where it has none.\n"
-               "Exits 0 when converged, 2 when it stopped short of the tolerance (the motion is still written),\n"
-               "3 when no feasible motion was found, 1 on bad input.");
-  command->add_option("problem", arguments.problem, "The problem, a file or - for standard input")->capture_default_str();
-  command->add_option("-o,--output", arguments.output, "Where the motion goes, - for standard output")->capture_default_str();
+      "solve",
+      "Runs the problem's actions, or solves where it has none.\n"
+      "Exits 0 when converged, 2 when it stopped short of the tolerance (the motion is still written),\n"
+      "3 when no feasible motion was found, 1 on bad input.");
+  command->add_option("problem", arguments.problem, "The problem, a file or - for standard input")
+      ->capture_default_str();
+  command->add_option("-o,--output", arguments.output, "Where the motion goes, - for standard output")
+      ->capture_default_str();
   command->add_option("--start", arguments.start, "A motion to start from, instead of the keyframes");
-  command->add_option("--samples", arguments.samples,
-                      "Frames per second: also writes plotted expressions and body poses at that rate")
+  command
+      ->add_option("--samples", arguments.samples,
+                   "Frames per second: also writes plotted expressions and body poses at that rate")
       ->check(CLI::PositiveNumber);
   command->add_option("--tolerance", arguments.tolerance, "In place of the actions' own")->check(CLI::PositiveNumber);
   command->add_option("--iterations", arguments.iterations, "At most so many a solve, in place of the actions' own")

@@ -99,8 +99,7 @@ void Newton::judge(NewtonState& state) {
   {
     const Stopwatch watch(state.seconds.evaluate);
     linearise(t_, layout_, state.x, workspace_, linear);
-    state.gradient = linear.gradient +
-                     multiply(linear.jacobian, soft_weight_.cwiseProduct(residual_of(state.values)));
+    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weight_.cwiseProduct(residual_of(state.values)));
   }
   for (int k = 0; k < layout_.size(); ++k) {
     if (kkt_.is_row(k)) state.gradient[k] = 0;
@@ -209,15 +208,13 @@ bool Newton::holds(const Model& model, const Trial& trial, double length, double
   return std::abs(difference) <= error * std::abs(predicted) + rounding * std::abs(model.lagrangian);
 }
 
-Newton::Verdict Newton::verdict(const NewtonState& state, const Model& model, const Trial& trial,
-                                double length) const {
+Newton::Verdict Newton::verdict(const NewtonState& state, const Model& model, const Trial& trial, double length) const {
   const double violation = state.measures.sum, objective = state.values.objective, now = trial.values.objective;
   if (!trial.values.finite || !state.filter.admits(trial.sum, now)) return Verdict::rejected;
   const double slack = rounding * std::abs(objective);
   if (violation <= small_violation_factor * state.most_violation) {
-    const bool switching =
-        model.descent < 0 &&
-        length * std::pow(-model.descent, switch_descent_power) > std::pow(violation, switch_violation_power);
+    const bool switching = model.descent < 0 && length * std::pow(-model.descent, switch_descent_power) >
+                                                    std::pow(violation, switch_violation_power);
     if (switching) {
       const bool enough = now <= objective + sufficient_decrease * length * model.descent + slack;
       return enough ? Verdict::objective_step : Verdict::rejected;
@@ -225,8 +222,7 @@ Newton::Verdict Newton::verdict(const NewtonState& state, const Model& model, co
     // A violation this small is no reason to give up much of the objective.
     if (now > objective + fair_price * model.price + slack) return Verdict::rejected;
   }
-  const bool better =
-      trial.sum <= (1 - Filter::margin) * violation || now <= objective - Filter::margin * violation;
+  const bool better = trial.sum <= (1 - Filter::margin) * violation || now <= objective - Filter::margin * violation;
   return better ? Verdict::violation_step : Verdict::rejected;
 }
 

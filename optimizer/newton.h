@@ -37,11 +37,11 @@ struct NewtonState {
   StepResult condition = StepResult::stepped;  // not_finite or singular where x cannot be gone on from
 
   Filter filter;
-  double most_violation = 0;   // of the start; 0: not begun
-  double shift = 0;            // the inertia correction that was needed last, decaying
-  double radius = 0;           // limit on the change of a coefficient while the model does not hold
-  double restore_from = 0;     // while the violation alone is reduced: its sum where that began
-  double damping = 0;          // of those steps
+  double most_violation = 0;  // of the start; 0: not begun
+  double shift = 0;           // the inertia correction that was needed last, decaying
+  double radius = 0;          // limit on the change of a coefficient while the model does not hold
+  double restore_from = 0;    // while the violation alone is reduced: its sum where that began
+  double damping = 0;         // of those steps
   int iterations = 0;
 
   double step = 0, shift_used = 0;  // of the last step: largest change of a coefficient, correction

@@ -59,7 +59,8 @@ Outcome outcome_of(StepResult result, const Transcription& t, const NewtonState&
   switch (result) {
     case StepResult::converged:
       return {Status::converged, fmt::format("Converged: hard constraints hold and the gradient of the Lagrangian "
-                                             "vanishes to {:.3g}.", tolerance)};
+                                             "vanishes to {:.3g}.",
+                                             tolerance)};
     case StepResult::infeasible:
       return {Status::infeasible,
               "No motion near this one satisfies every hard constraint, and no change reduces the violation: " + worst +
@@ -69,12 +70,15 @@ Outcome outcome_of(StepResult result, const Transcription& t, const NewtonState&
               "The objective or a constraint is not a finite number along this motion. Start from another sketch, or "
               "keep arguments of sqrt, log and divisions away from zero."};
     case StepResult::singular:
-      return {Status::failed, "The equations of the step could not be solved however strongly they were regularised; " +
-                                  worst + "."};
+      return {Status::failed,
+              "The equations of the step could not be solved however strongly they were regularised; " + worst + "."};
     case StepResult::exhausted:
-      return {Status::stopped, fmt::format("Rounding hides any further progress: the gradient of the Lagrangian is down "
-                                           "to {:.3g} of the objective's; {}.", state.measures.stationarity, worst)};
-    case StepResult::stepped: break;
+      return {Status::stopped,
+              fmt::format("Rounding hides any further progress: the gradient of the Lagrangian is down "
+                          "to {:.3g} of the objective's; {}.",
+                          state.measures.stationarity, worst)};
+    case StepResult::stepped:
+      break;
   }
   return {Status::stopped, ""};
 }
@@ -134,7 +138,9 @@ class Runner {
     return state_.measures.violation <= tolerance && state_.measures.stationarity <= tolerance &&
            state_.condition == StepResult::stepped;
   }
-  std::string count() const { return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s"); }
+  std::string count() const {
+    return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s");
+  }
   std::string standing() const {
     return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",
                        state_.measures.stationarity, worst_of(violations(t_, state_.values)));
@@ -172,7 +178,8 @@ class Runner {
     motion.violations = violations(t_, values);
     for (const Violation& violation : motion.violations) motion.violation = std::max(motion.violation, violation.max);
     for (int dof = 0; dof < t_.dofs(); ++dof) {
-      motion.dofs.push_back({problem_.dofs[dof].name, problem_.dofs[dof].basis,
+      motion.dofs.push_back({problem_.dofs[dof].name,
+                             problem_.dofs[dof].basis,
                              {x.begin() + t_.first[dof], x.begin() + t_.first[dof + 1]}});
     }
     for (const Constant& constant : problem_.constants) {
@@ -180,8 +187,8 @@ class Runner {
     }
     if (options_.frames_per_second > 0) {
       const auto functionals = std::span(x).subspan(t_.first_functional());
-      motion.samples = sample(problem_, motion, functionals,
-                              frame_times(problem_.start, problem_.end, options_.frames_per_second));
+      motion.samples =
+          sample(problem_, motion, functionals, frame_times(problem_.start, problem_.end, options_.frames_per_second));
     }
     motion.seconds = state_.seconds;
     motion.seconds.total = elapsed();

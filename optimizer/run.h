@@ -22,12 +22,12 @@ struct Progress {
 };
 
 struct RunOptions {
-  std::optional<Motion> start;                      // a motion to start from
-  std::optional<double> tolerance;                  // in place of the actions' own
-  std::optional<int> iterations;                    // likewise
-  double frames_per_second = 0;                     // above 0: the motion has samples
-  std::function<void(const Progress&)> progress;    // after each iteration
-  std::function<bool()> interrupted;                // asked before each iteration; the motion reached is kept
+  std::optional<Motion> start;                    // a motion to start from
+  std::optional<double> tolerance;                // in place of the actions' own
+  std::optional<int> iterations;                  // likewise
+  double frames_per_second = 0;                   // above 0: the motion has samples
+  std::function<void(const Progress&)> progress;  // after each iteration
+  std::function<bool()> interrupted;              // asked before each iteration; the motion reached is kept
 };
 
 // A problem without actions is solved.  Every outcome leaves a motion.  Throws InputError where the problem makes no

@@ -14,7 +14,6 @@ namespace {
 // Of many constraints the summary names so many, the worst first.
 constexpr std::size_t violations_shown = 5;
 
-
 template <typename Range, typename Name>
 std::string names(const Range& range, Name name) {
   constexpr std::size_t most = 8;
@@ -42,21 +41,20 @@ std::string question(const Problem& problem) {
   for (const Constraint& constraint : problem.constraints) soft += constraint.weight.has_value();
   std::string text = fmt::format("asked      {} unknowns: {}, {} s\n", unknowns,
                                  names(problem.dofs, [](const Dof& d) { return d.name; }), problem.end - problem.start);
-  text += fmt::format("minimise   {}\n", problem.objective.empty() ? "nothing: any motion that keeps the constraints"
-                                                                   : names(problem.objective, [](const Term& t) { return t.name; }));
+  text += fmt::format("minimise   {}\n", problem.objective.empty()
+                                             ? "nothing: any motion that keeps the constraints"
+                                             : names(problem.objective, [](const Term& t) { return t.name; }));
   text += fmt::format("subject to {}", names(problem.constraints, [](const Constraint& c) { return c.name; }));
   if (problem.constraints.empty()) text += "nothing";
   if (soft > 0) text += fmt::format(" ({} soft)", soft);
   return text + "\n\n";
 }
 
-std::string heading() {
-  return "iteration      objective   violation   gradient       step      shift   seconds\n";
-}
+std::string heading() { return "iteration      objective   violation   gradient       step      shift   seconds\n"; }
 
 std::string line(const Progress& p) {
-  return fmt::format("{:9d} {:14.8g} {:11.2e} {:10.2e} {:10.2e} {:10.1e} {:9.3f}\n", p.iteration, p.objective, p.violation,
-                     p.stationarity, p.step, p.shift, p.seconds);
+  return fmt::format("{:9d} {:14.8g} {:11.2e} {:10.2e} {:10.2e} {:10.1e} {:9.3f}\n", p.iteration, p.objective,
+                     p.violation, p.stationarity, p.step, p.shift, p.seconds);
 }
 
 Show parse_show(const Problem& problem, const std::string& text) {
@@ -73,7 +71,8 @@ Show parse_show(const Problem& problem, const std::string& text) {
   char* end = nullptr;
   const double time = std::strtod(show.time.c_str(), &end);
   if (!constant && (end == show.time.c_str() || *end != '\0' || !(time >= problem.start && time <= problem.end))) {
-    throw InputError("--show '" + text + "': '" + show.time + "' is neither a constant nor a time within the animation");
+    throw InputError("--show '" + text + "': '" + show.time +
+                     "' is neither a constant nor a time within the animation");
   }
   return show;
 }
@@ -110,8 +109,9 @@ std::string summary(const Problem& problem, const Motion& motion, const std::vec
     text += '\n';
   }
   const double rest = motion.seconds.total - motion.seconds.evaluate - motion.seconds.factor;
-  text += fmt::format("time       {:.1f} ms: {:.1f} evaluating, {:.1f} factoring, {:.1f} elsewhere\n",
-                      1e3 * motion.seconds.total, 1e3 * motion.seconds.evaluate, 1e3 * motion.seconds.factor, 1e3 * rest);
+  text +=
+      fmt::format("time       {:.1f} ms: {:.1f} evaluating, {:.1f} factoring, {:.1f} elsewhere\n",
+                  1e3 * motion.seconds.total, 1e3 * motion.seconds.evaluate, 1e3 * motion.seconds.factor, 1e3 * rest);
   return text;
 }
 

@@ -130,8 +130,8 @@ void add_hessian(Batch& batch, const std::vector<Meaning>& meanings) {
 void add_chunks(Batch& batch) {
   batch.chunks.push_back(0);
   for (int s = 1; s < batch.samples(); ++s) {
-    const bool same = std::ranges::all_of(
-        batch.tables, [&](const auto& table) { return table[s].first == table[s - 1].first; });
+    const bool same =
+        std::ranges::all_of(batch.tables, [&](const auto& table) { return table[s].first == table[s - 1].first; });
     if (!same) batch.chunks.push_back(s);
   }
   if (batch.samples() > 0) batch.chunks.push_back(batch.samples());
@@ -210,7 +210,8 @@ class Transcriber {
       Batch batch = start_batch(functional.program);
       batch.targets.resize(batch.outputs());
       batch.targets[functional.output] = {Target::Kind::functional, k, 1};
-      sample(batch, functional.kind == Functional::Kind::integral, true, functional.from, functional.to, "a functional");
+      sample(batch, functional.kind == Functional::Kind::integral, true, functional.from, functional.to,
+             "a functional");
       finish(std::move(batch));
       out_.rows.push_back({Row::Kind::functional, k, no_time, 0});
     }
