@@ -8,6 +8,8 @@
 
 namespace spacetime::symbolic {
 
+inline std::string numbered(std::string name, std::size_t number) { return name.append(std::to_string(number)); }
+
 inline Coordinate coordinate(Graph& graph, const std::string& name) {
   const auto input = [&](int derivative) {
     return graph.input({.kind = InputKind::dof, .name = name, .index = 0, .derivative = derivative});
@@ -24,7 +26,7 @@ inline Linkage planar_arm(Graph& graph, const std::vector<double>& lengths, cons
     Link link;
     link.joint = Link::Joint::revolute;
     link.parent = static_cast<int>(k) - 1;
-    link.coordinate = coordinate(graph, "q" + std::to_string(k + 1));
+    link.coordinate = coordinate(graph, numbered("q", k + 1));
     if (k == 0) link.offset = graph.pi(-0.5);
     link.a = graph.number(lengths[k]);
     link.mass = graph.number(masses[k]);

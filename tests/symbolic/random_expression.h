@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "symbolic/value.h"
@@ -56,7 +57,8 @@ class RandomExpressions {
   RandomExpression make(Graph& graph, int operations, int variables) {
     RandomExpression e;
     for (int i = 0; i < variables; ++i) {
-      const Input input{.kind = InputKind::dof, .name = "x" + std::to_string(i), .index = 0, .derivative = 0};
+      const Input input{
+          .kind = InputKind::dof, .name = std::string(1, 'x').append(std::to_string(i)), .index = 0, .derivative = 0};
       e.variables.push_back(graph.input(input));
       e.point.push_back(uniform(-2, 2));
       push(graph, e, {.is_input = true, .input = i}, e.variables.back());

@@ -35,7 +35,7 @@ inline RandomLinkage random_linkage(Graph& graph, int links, std::mt19937_64& ra
     link.joint =
         std::array{Link::Joint::revolute, Link::Joint::revolute, Link::Joint::prismatic, Link::Joint::fixed}[below(4)];
     if (link.joint != Link::Joint::fixed) {
-      link.coordinate = coordinate(graph, "q" + std::to_string(k));
+      link.coordinate = coordinate(graph, numbered("q", k));
       result.coordinates.push_back(*link.coordinate);
     }
     link.offset = angle();
