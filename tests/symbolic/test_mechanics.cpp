@@ -378,7 +378,7 @@ TEST(Mechanics, RightAnglesAreExact) {
     Link link;
     link.parent = k - 1;
     link.joint = Link::Joint::revolute;
-    link.coordinate = coordinate(g, "q" + std::to_string(k));
+    link.coordinate = coordinate(g, numbered("q", static_cast<std::size_t>(k)));
     link.alpha = g.pi(0.5);
     arm.links.push_back(link);
   }
