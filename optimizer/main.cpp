@@ -84,7 +84,6 @@ int main(int argc, char** argv) {
   CLI::App app{"Turns a problem into a motion: finds the trajectories that keep the constraints and are best.",
                "spacetime-optimizer"};
   app.set_version_flag("--version", "spacetime-optimizer " SPACETIME_VERSION);
-  app.require_subcommand(1);
   app.footer(
       "Example:\n  spacetime-symbolic compile examples/throw.scene | spacetime-optimizer solve > throw.motion.json");
 
@@ -112,7 +111,9 @@ int main(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
-    return solve(arguments);
+    if (command->parsed()) return solve(arguments);
+    std::cerr << app.help();
+    return bad_input;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : bad_input;
   } catch (const InputError& error) {
