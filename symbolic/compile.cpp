@@ -63,7 +63,8 @@ std::string add_program(Model& model, std::span<const Expr> values, Derivatives 
   if (!model.diagnostics.empty()) return {};
   const auto start = Clock::now();
   double differentiating = 0;
-  Program program = emit(model.graph, values, derivatives, &differentiating);
+  Graph own;
+  Program program = emit(own, copy(model.graph, model.fingerprints, values, own), derivatives, &differentiating);
   std::string key = hash(program);
   model.problem.programs.try_emplace(key, std::move(program));
   model.differentiate_milliseconds += differentiating;

@@ -11,6 +11,7 @@
 #include "symbolic/creature.h"
 #include "symbolic/emit.h"
 #include "symbolic/facts.h"
+#include "symbolic/fingerprint.h"
 #include "symbolic/graph.h"
 #include "symbolic/scene.h"
 
@@ -73,6 +74,7 @@ struct Model {
   std::vector<Diagnostic>& diagnostics;
   Graph graph;
   Facts facts{graph};
+  Fingerprints fingerprints{graph};
   Problem problem;
 
   std::map<std::string, Symbol, std::less<>> symbols;
