@@ -32,4 +32,9 @@ inline constexpr std::size_t spans = std::size_t{1} << 17;
 // optimizer keeps some hundred bytes of each.  Also the largest count a scope may ask for.
 inline constexpr int instances = 4'000'000;
 
+// Operations run in one evaluation of a whole problem: those of each program times its instances or quadrature points,
+// as far as its numbers alone tell.  Arms of twelve links on 4,096 spans run less than 1e9; this many take the better
+// part of a minute, within which nobody can cancel.
+inline constexpr double evaluated_operations = 1e11;
+
 }  // namespace spacetime::limits

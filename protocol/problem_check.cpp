@@ -27,6 +27,7 @@ struct Needs {
   std::ptrdiff_t constant = -1;    // the last one, by its place in Problem::constants; -1: none
   std::ptrdiff_t functional = -1;  // the same, in Problem::functionals
   std::size_t outputs = 0;
+  std::size_t operations = 0;
 };
 
 // ProgramFault's paths name fields of Program; in documents entries are lists and the prefixes' lengths an object.
@@ -112,7 +113,7 @@ class Check {
   }
 
   Needs needs_of(const Program& program, const std::string& path) const {
-    Needs needs{.outputs = program.values.size()};
+    Needs needs{.outputs = program.values.size(), .operations = program.op.size()};
     for (std::size_t i = 0; i < program.inputs.size(); ++i) {
       const auto& input = program.inputs[i];
       const auto unknown = [&](const char* kind) {
@@ -209,10 +210,13 @@ class Check {
 
   // A functional or a piece of the objective.
   template <class Summed>
-  const Needs& summed(const Summed& summed, const std::string& path) const {
+  const Needs& summed(const Summed& summed, const std::string& path) {
     const auto& needs = program(summed.program, path);
     output(needs, summed.output, path + "/output");
-    if (summed.kind == Summed::Kind::integral) {
+    constexpr double points = 4;  // of Gauss-Legendre quadrature in a knot span
+    const bool integral = summed.kind == Summed::Kind::integral;
+    evaluated(integral ? points * static_cast<double>(most_knots_) : 1, needs, path);
+    if (integral) {
       if (summed.from) quantity(*summed.from, path + "/from");
       if (summed.to) quantity(*summed.to, path + "/to");
     } else if (summed.kind == Summed::Kind::at) {
@@ -226,7 +230,7 @@ class Check {
     return needs;
   }
 
-  void functionals() const {
+  void functionals() {
     for (std::size_t i = 0; i < problem_.functionals.size(); ++i) {
       const auto path = below("/functionals", i);
       const auto& needs = summed(problem_.functionals[i], path);
@@ -234,6 +238,13 @@ class Check {
         fail(path + "/program", "uses functional " + std::to_string(needs.functional) + ", which is not before it");
       }
     }
+  }
+
+  // Counts what a statement costs to evaluate at so many times.
+  void evaluated(double times, const Needs& needs, const std::string& path) {
+    evaluated_ += times * static_cast<double>(needs.operations);
+    if (evaluated_ <= limits::evaluated_operations) return;
+    fail(path, "the statements up to here run more than 1e11 operations in one evaluation, the limit of one problem");
   }
 
   // How many instances it has, as far as its numbers alone tell.
@@ -283,11 +294,13 @@ class Check {
       place(constraint.place, path);
       const auto& needs = program(constraint.program, path);
       if (needs.outputs == 0) fail(path + "/program", "has no values, so that nothing is constrained");
-      residuals += scope(constraint.scope, needs, path) * static_cast<double>(needs.outputs);
+      const double instances = scope(constraint.scope, needs, path);
+      residuals += instances * static_cast<double>(needs.outputs);
       if (!(residuals <= limits::instances)) {
         fail(path + "/scope", "the constraints up to here have more than " + std::to_string(limits::instances) +
                                   " residuals (instances times components), the limit of one problem");
       }
+      evaluated(instances, needs, path + "/scope");
       if (!constraint.weight) continue;
       quantity(*constraint.weight, path + "/weight");
       if (constraint.weight->program.empty() && constraint.weight->number < 0) {
@@ -383,6 +396,7 @@ class Check {
   Names dofs_;
   Names statements_;  // constraints and objective terms share one set: actions name either
   std::unordered_map<std::string_view, Needs> needs_;
+  double evaluated_ = 0;        // operations
   std::size_t most_knots_ = 2;  // distinct knots of the finest basis
 };
 

@@ -177,6 +177,31 @@ TEST(Hostile, LongTrajectoriesAndPrograms) {
   EXPECT_EQ(validate(problem)->path, "/programs");
 }
 
+// Each of these is small and fits every other limit; together they would keep a solver busy for hours.
+TEST(Hostile, EndlessWork) {
+  Problem problem;
+  std::vector<double> knots(4, 0.0);
+  for (int i = 1; i < 100'000; ++i) knots.push_back(i / 1e5);
+  knots.insert(knots.end(), 4, 1.0);
+  problem.dofs = {{"q", {knots}, {}, {}}};
+  std::mt19937 random(5);
+  const auto key = examples::add(problem, examples::random_program(random, {{InputKind::dof, "q", 0, 0}}, 1000));
+  auto& term = problem.objective.emplace_back();
+  term.name = "sum";
+  term.pieces.resize(200, {Piece::Kind::integral, key, 0, {}, {}});
+  EXPECT_FALSE(validate(problem));
+  term.pieces.resize(300, {Piece::Kind::integral, key, 0, {}, {}});
+  EXPECT_EQ(validate(problem)->path, "/objective/0/pieces/249");
+  problem.objective.clear();
+  problem.programs.clear();
+  auto& constraint = problem.constraints.emplace_back();
+  constraint.name = "all";
+  constraint.program = examples::add(problem, examples::random_program(random, {}, 100'000));
+  constraint.scope.kind = Scope::Kind::count;
+  constraint.scope.count = 1'100'000;
+  EXPECT_EQ(validate(problem)->path, "/constraints/0/scope");
+}
+
 TEST(Hostile, LongTextsAreQuotedShort) {
   const auto found = refusal(replaced(small_document(), "1.25", '"' + std::string(1'000'000, 'x') + '"'));
   EXPECT_EQ(found.path, "/dofs/0/basis/knots/5");

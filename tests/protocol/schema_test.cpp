@@ -4,50 +4,19 @@
 //   what the schema refuses, the reader (form and meaning) refuses too.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
-#include <sstream>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "common/program.h"
 #include "protocol/limits.h"
 #include "protocol/motion_json.h"
 #include "protocol/problem_json.h"
 #include "tests/protocol/examples.h"
+#include "tests/protocol/schema.h"
 
 namespace spacetime {
 namespace {
 
 using nlohmann::json;
-
-json load(const std::string& name) {
-  std::ifstream file(std::filesystem::path(SPACETIME_SOURCE_DIR) / "protocol/schemas" / name);
-  EXPECT_TRUE(file) << name;
-  return json::parse(file);
-}
-
-class Schema {
- public:
-  explicit Schema(const std::string& name) {
-    const auto document = load(name);
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
-  }
-  bool accepts(const json& document) const {
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    return validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(document), nullptr);
-  }
-
- private:
-  valijson::Schema schema_;
-};
 
 template <class Read>
 bool accepts(Read read) {
@@ -177,7 +146,7 @@ TEST(Schemas, AgreeWithTheReaderOfMotions) {
 }
 
 TEST(Schemas, KnowTheOperationsAndTheLimits) {
-  const auto schema = load("problem.schema.json");
+  const auto schema = load_schema("problem.schema.json");
   const auto& program = schema["definitions"]["program"]["properties"];
   std::set<std::string> names;
   for (int i = 0; i < op_count; ++i) names.emplace(info(static_cast<Op>(i)).name);
@@ -191,7 +160,7 @@ TEST(Schemas, KnowTheOperationsAndTheLimits) {
 // Whether every member has a description, its own or that of what it refers to.
 TEST(Schemas, DescribeEveryMember) {
   for (const auto* name : {"problem.schema.json", "motion.schema.json"}) {
-    const auto schema = load(name);
+    const auto schema = load_schema(name);
     int members = 0;
     std::vector<const json*> open{&schema};
     while (!open.empty()) {
