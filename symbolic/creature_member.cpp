@@ -52,6 +52,7 @@ std::pair<Value, bool> creature_member(Model& model, int index, int joint, std::
     }
   for (std::size_t i = 0; i < creature.links.size(); ++i)
     if (creature.links[i] == name) return {vector_value(frames_of(model, creature)[i].position), true};
+  if (creature.damaged) return {Value{}, true};
   if (name == "force") return force(model, creature, -1, span);
   if (name == "q") {
     std::vector<Expr> q;
@@ -60,7 +61,6 @@ std::pair<Value, bool> creature_member(Model& model, int index, int joint, std::
     return {numbers(std::move(q)), true};
   }
   if (name == "com") {
-    if (creature.damaged) return {Value{}, true};
     if (!has_mass(model, creature))
       return refused(model, span, quoted(creature.name) + " has no mass, so it has no centre of mass");
     return {vector_value(centre_of_mass(model.graph, creature.linkage, frames_of(model, creature))), true};

@@ -17,6 +17,7 @@ void elaborate_time_span(Model& model, const TimeDeclaration& declaration, const
   if (!(from->value < to->value)) return report(model, declaration.time.span, "the time must end later than it starts");
   model.problem.start = from->value;
   model.problem.end = to->value;
+  model.time_known = true;
 }
 
 void elaborate_constant(Model& model, const ConstantDeclaration& declaration) {
@@ -129,7 +130,7 @@ void elaborate_scene(Model& model) {
     return;
   }
   make_bases(model);
-  check_times(model);
+  if (model.time_known) check_times(model);
   if (!model.diagnostics.empty()) return;
   finish_objective(model);
   add_plots(model);

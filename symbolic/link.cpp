@@ -188,6 +188,7 @@ void set_joint(Model& model, Creature& creature, const LinkDeclaration& declarat
     if (!creature.damaged)
       report(model, declaration.name.span,
              "link " + quoted(declaration.name.text) + " needs a joint: revolute, prismatic or fixed");
+    creature.damaged = true;
     return;
   }
   if (joint->kind == Kind::fixed) return;

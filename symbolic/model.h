@@ -84,6 +84,7 @@ struct Model {
   std::vector<Creature> creatures;
 
   std::optional<Span> time;  // where the `time` statement is
+  bool time_known = false;   // it has been understood
   std::vector<TimeCheck> time_checks;
   std::vector<Trajectories> trajectories;
   int trajectory = -1;              // the one that new degrees of freedom take

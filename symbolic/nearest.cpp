@@ -1,6 +1,7 @@
 #include "symbolic/nearest.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "symbolic/quoted.h"
@@ -35,13 +36,15 @@ constexpr std::size_t longest_compared = 64;  // characters; longer names are no
 std::string nearest(std::string_view wrong, std::span<const std::string> candidates) {
   if (wrong.size() > longest_compared) return {};
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(1, wrong.size() / 3) + 1;
+  // Of those equally near, one as long as `wrong` is likelier.
+  std::pair<std::size_t, bool> best_score{std::max<std::size_t>(1, wrong.size() / 3) + 1, false};
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == wrong) continue;
     const std::size_t dot = candidate.rfind('.');
     const bool tail = dot != std::string::npos && std::string_view(candidate).substr(dot + 1) == wrong;
-    const std::size_t d = tail ? 0 : distance(wrong, candidate);
-    if (d < best_distance && d < std::max(wrong.size(), candidate.size())) best = candidate, best_distance = d;
+    const std::pair score{tail ? 0 : distance(wrong, candidate), candidate.size() != wrong.size()};
+    if (score < best_score && score.first < std::max(wrong.size(), candidate.size()))
+      best = candidate, best_score = score;
   }
   return best;
 }

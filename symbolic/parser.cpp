@@ -65,29 +65,39 @@ bool refuse_leading_operator(Parsing& p) {
 bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, void*), void* target,
                   std::span<const std::string_view> outer) {
   const Token opened = p.in.peek();
-  if (!p.in.expect(TokenKind::left_brace, "'{'")) return true;
+  if (p.in.failed()) return true;
   bool damaged = false;
+  if (!p.in.accept(TokenKind::left_brace)) {
+    p.in.fail("'{'");
+    p.in.go_on();  // as if it stood here
+    damaged = true;
+  }
   while (true) {
     while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
     if (p.in.accept(TokenKind::right_brace)) return damaged;
+    const bool lost = p.in.at(TokenKind::end) || p.in.at_statement();
     const bool left =
         p.in.at(TokenKind::name) && std::find(outer.begin(), outer.end(), p.in.peek().text) != outer.end();
-    if (p.in.at(TokenKind::end) || p.in.at_statement() || left) {
-      p.in.fail(p.in.peek().span,
-                "expected '}' to close '" + std::string(owner) + " {', found " + describe(p.in.peek()),
-                {{opened.span, "it is opened here"}});
+    if (lost || left) {
+      if (opened.kind == TokenKind::left_brace)
+        p.in.fail(p.in.peek().span,
+                  "expected '}' to close " + quoted(std::string(owner) + " {") + ", found " + describe(p.in.peek()),
+                  {{opened.span, "it is opened here"}});
+      if (left)
+        p.in.go_on();
+      else
+        p.in.give_up();
       return true;
     }
     if (!refuse_leading_operator(p)) item(p, target);
-    if (!p.in.failed() && !p.in.at_separator() && !p.in.at(TokenKind::right_brace))
-      p.in.fail("the end of the item (a line end, ';' or '}')");
-    if (p.in.failed()) {
-      damaged = true;
-      p.in.recover();
-      if (p.in.at(TokenKind::end) || p.in.at_statement()) {  // what is lost takes the closing brace along
-        p.in.give_up();
-        return true;
-      }
+    const bool ended = p.in.at_separator() || p.in.at(TokenKind::right_brace) || p.in.peek().line_start;
+    if (!p.in.failed() && !ended) p.in.fail("the end of the item (a line end, ';' or '}')");
+    if (!p.in.failed()) continue;
+    damaged = true;
+    p.in.recover();
+    if (p.in.at(TokenKind::end) || p.in.at_statement()) {  // what is lost takes the closing brace along
+      p.in.give_up();
+      return true;
     }
   }
 }

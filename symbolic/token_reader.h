@@ -41,6 +41,7 @@ class TokenReader {
   void fail(Span span, std::string message, std::vector<Diagnostic::Note> notes = {});
 
   void give_up() { failed_ = true; }  // fails without a report
+  void go_on() { failed_ = false; }   // after a report that costs nothing that follows
 
   // After a mistake: on to the next separator outside brackets, to the `}` of the block this is in, or to the
   // beginning of a statement, and ready to report again.

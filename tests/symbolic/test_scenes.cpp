@@ -226,6 +226,36 @@ TEST(Scenes, CreaturesPlotsAndBodies) {
   }
 }
 
+TEST(Scenes, FixedLinksAreShiftedByTheirOrigin) {
+  const Problem problem = problem_of(R"(time [0, 1]
+trajectory bspline spans 4
+creature c {
+  link turn { revolute q axis (0, 0, 1) origin (1, 0, 0) }
+  link arm  { fixed; origin (2, 0, 0) }
+}
+)");
+  const auto at = plotted(problem, "c.arm", state_of(problem, {std::acos(-1.0) / 2}, {0}, {0}));
+  EXPECT_NEAR(at.at(0), 1, 1e-15);
+  EXPECT_NEAR(at.at(1), 2, 1e-15);
+}
+
+// The manual's blocks, one after another, are a scene.
+TEST(Scenes, TheManualCompiles) {
+  const std::string manual = file_text("symbolic/LANGUAGE.md"), fence = "```\n";
+  std::string scene;
+  for (std::size_t at = manual.find(fence); at != std::string::npos; at = manual.find(fence, at)) {
+    const std::size_t begin = at + fence.size(), end = manual.find(fence, begin);
+    ASSERT_NE(end, std::string::npos);
+    scene += manual.substr(begin, end - begin);
+    at = end + fence.size();
+  }
+  const Problem problem = problem_of(scene);
+  EXPECT_EQ(problem.constraints.size(), 3U);
+  EXPECT_EQ(problem.objective.size(), 2U);
+  EXPECT_EQ(problem.actions.size(), 2U);
+  EXPECT_EQ(problem.dofs.size(), 5U);
+}
+
 TEST(Scenes, EveryExampleCompilesAndSurvivesWritingAndReading) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SPACETIME_SOURCE_DIR "/examples")) {
