@@ -230,7 +230,7 @@ TEST(Scenes, FixedLinksAreShiftedByTheirOrigin) {
   const Problem problem = problem_of(R"(time [0, 1]
 trajectory bspline spans 4
 creature c {
-  link turn { revolute q axis (0, 0, 1) origin (1, 0, 0) }
+  link turn { revolute angle axis (0, 0, 1) origin (1, 0, 0) }
   link arm  { fixed; origin (2, 0, 0) }
 }
 )");
