@@ -10,27 +10,15 @@
 
 #include "common/action.h"
 #include "common/program.h"
+#include "common/quantity.h"
 
 namespace spacetime {
-
-// Where in the scene's text something was written; 1-based, 0 where unknown.
-struct Place {
-  int line = 0, column = 0;
-  bool operator==(const Place&) const = default;
-};
-
-// A number, or one output of a program over constants, re-evaluated whenever a constant is set.
-struct Quantity {
-  double number = 0;    // used where `program` is empty
-  std::string program;  // key into Problem::programs, or empty
-  int output = 0;       // which of the program's values
-  bool operator==(const Quantity&) const = default;
-};
 
 struct Constant {
   std::string name;
   Quantity value;  // may depend on constants declared before it
   Place place;
+  std::optional<Place> frozen{};  // where `time`, `trajectory`, `count` or a joint uses it, so that it cannot be set
   bool operator==(const Constant&) const = default;
 };
 
@@ -42,11 +30,21 @@ struct Basis {
   bool operator==(const Basis&) const = default;
 };
 
+// One unknown number, chosen along with the motion.
+struct Parameter {
+  std::string name;
+  Quantity start;
+  Place place;
+  std::optional<Quantity> lower{}, upper{};
+  bool operator==(const Parameter&) const = default;
+};
+
 struct Dof {
   std::string name;
   Basis basis;
   Quantity start;
   Place place;
+  std::optional<Quantity> lower{}, upper{};  // kept by the coefficients, so that they hold at every time
   bool operator==(const Dof&) const = default;
 };
 
@@ -59,28 +57,27 @@ struct Functional {
   bool operator==(const Functional&) const = default;
 };
 
-// The times at which a statement is sampled.
-struct Scope {
-  enum class Kind {
-    once,   // depends on no time: a single instance over functionals, parameters and constants alone
-    times,  // at `times`
-    every,  // from, from + step, ..., and always to
-    count,  // `count` evenly spaced, both ends among them
-    knots,  // from, to and every knot between (the finest basis among the program's degrees of freedom)
-    whole,  // as knots, over the problem's whole time
-  } kind = Kind::whole;
-  std::vector<Quantity> times;
-  Quantity from, to, step;
-  int count = 0;
-  bool operator==(const Scope&) const = default;
+// `when`: an instance counts only while this output is not 0.
+struct Condition {
+  std::string program;
+  int output = 0;
+  bool operator==(const Condition&) const = default;
 };
 
 struct Constraint {
+  enum class Relation {
+    equal,    // each value is to be 0
+    at_most,  // each value is to be at most 0; `>=` has its sides exchanged, a chain has the values of both halves
+  };
   std::string name;     // given, or "constraint 3"
   std::string program;  // its values are the residual's components: left side minus right side
   Scope scope;
   std::optional<Quantity> weight;  // absent: hard.  Soft: adds weight/2 * r^2 for each instance and component
   Place place;
+  Relation relation = Relation::equal;
+  std::optional<Condition> condition{};
+  int since = 0;             // takes effect before this action (an index into Problem::actions); 0: from the start
+  bool replacement = false;  // takes effect through an action `replace` alone
   bool operator==(const Constraint&) const = default;
 };
 
@@ -102,14 +99,11 @@ struct Term {
   Quantity weight{1, {}, 0};
   std::vector<Piece> pieces;
   Place place;
+  int since = 0;  // as a constraint's
+  bool replacement = false;
   bool operator==(const Term&) const = default;
 };
 
-struct Key {
-  std::string dof;
-  Quantity value;
-  bool operator==(const Key&) const = default;
-};
 struct Keyframe {
   Quantity time;
   std::vector<Key> keys;
@@ -145,6 +139,7 @@ struct PlacedAction {
 struct Problem {
   double start = 0, end = 1;  // the animation's time span, seconds
   std::vector<Constant> constants;
+  std::vector<Parameter> parameters;
   std::vector<Dof> dofs;
   std::map<std::string, Program> programs;  // by hash
   std::vector<Functional> functionals;      // each may use those before it
