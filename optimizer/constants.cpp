@@ -72,9 +72,9 @@ std::vector<double> scope_times(const Problem& problem, const Constants& constan
       require(steps < max_instances, what + ": too many instances, make the step larger");
       const auto whole = static_cast<int>(std::floor(steps + whole_step));
       for (int k = 0; k <= whole; ++k) times.push_back(from + k * step);
-      if (std::abs(steps - whole) <= whole_step) {
+      if (whole > 0 && std::abs(steps - whole) <= whole_step) {
         times.back() = to;
-      } else {
+      } else if (to > from) {
         times.push_back(to);
       }
       break;

@@ -2,43 +2,13 @@
 // independent implementation.
 #include <gtest/gtest.h>
 
-#include "optimizer/evaluation.h"
+#include "tests/optimizer/evaluated.h"
 #include "tests/optimizer/reference.h"
 
 namespace spacetime::optimizer {
 namespace {
 
 constexpr double agreement = 1e-9;  // relative to the largest component
-
-// A problem at a point, its vectors in the order of unknowns and rows.
-struct Evaluated {
-  explicit Evaluated(const Problem& problem)
-      : t(transcribe(problem)), layout(arrange(t)), linear(start_linearisation(layout)) {}
-
-  void at(const Eigen::VectorXd& point) {
-    x.assign(point.begin(), point.end());
-    ASSERT_EQ(x.size(), static_cast<std::size_t>(t.unknowns()));
-    values = evaluate(t, x, workspace);
-    linearise(t, layout, x, workspace, linear);
-  }
-
-  Eigen::VectorXd of_unknowns(const Eigen::VectorXd& positions) const { return positions(layout.of_unknown); }
-  Eigen::VectorXd of_rows(const Eigen::VectorXd& positions) const { return positions(layout.of_row); }
-  Eigen::VectorXd unknowns_placed(const Eigen::VectorXd& v) const { return placed(layout.of_unknown, v); }
-  Eigen::VectorXd rows_placed(const Eigen::VectorXd& v) const { return placed(layout.of_row, v); }
-  Eigen::VectorXd placed(const std::vector<int>& where, const Eigen::VectorXd& v) const {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(layout.size());
-    all(where) = v;
-    return all;
-  }
-
-  Transcription t;
-  Layout layout;
-  Linearisation linear;
-  Workspace workspace;
-  std::vector<double> x;
-  Values values;
-};
 
 // Where the rows of the scenes stand in the reference's order.  `rest` has, for each end, q1 q2 q3 and then their
 // rates (as one statement or two); the reference has q1(0) q1(T) q2(0) ..., then the rates.
@@ -96,8 +66,7 @@ void expect_reference(const std::string& scene, const std::vector<int>& order, c
             agreement);
 
   e.linear.hessian.set_zero();
-  const std::vector<double> multipliers(ours.begin(), ours.end());
-  add_row_curvature(e.t, e.layout, e.x, e.values, multipliers, e.workspace, e.linear);
+  e.add_curvature(ours);
   EXPECT_LE(relative_difference(e.of_unknowns(multiply(e.linear.hessian, e.unknowns_placed(d))),
                                 vector_of(expected["con_hess_d"])),
             agreement);
