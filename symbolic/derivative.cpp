@@ -238,12 +238,18 @@ std::vector<Weight> adjoints(Graph& graph, Guards& guards, const Part& part, std
 }
 
 void add_edges(Graph& graph, Elimination& elimination, const Part& part, std::span<const Local> local) {
+  std::vector<std::uint8_t> linear(part.size(), 1);
   for (std::uint32_t v = 0; v < part.size(); ++v) {
     if (part.input_of[v] >= 0) continue;
     const auto n = graph.node(part.node[v]);
     for (int k = 0; k < info(n.op).arity; ++k) {
-      if (!local[v].d[k].is_zero()) elimination.add_edge(v, part.at(operands(n)[k]), local[v].d[k]);
+      const auto weight = local[v].d[k];
+      if (weight.is_zero()) continue;
+      const auto u = part.at(operands(n)[k]);
+      elimination.add_edge(v, u, weight);
+      linear[v] = linear[v] && linear[u] && weight.list == 0 && graph.constant(weight.plain);
     }
+    if (linear[v]) elimination.set_linear(v);
   }
 }
 
@@ -298,7 +304,7 @@ std::vector<Entry> jacobian(Graph& graph, std::span<const Expr> values, std::spa
     for (const auto v : part.leaves()) append(0, v, adjoint[v]);
   } else {
     // One vertex more for each value keeps a value that others use from being eliminated before its own row is read.
-    Elimination elimination(graph, guards, part.size() + values.size());
+    Elimination elimination(guards, part.size() + values.size());
     add_edges(graph, elimination, part, local);
     for (std::size_t row = 0; row < values.size(); ++row) {
       if (part.contains(values[row])) {
@@ -307,8 +313,8 @@ std::vector<Entry> jacobian(Graph& graph, std::span<const Expr> values, std::spa
     }
     elimination.eliminate(part.operations());
     for (std::size_t row = 0; row < values.size(); ++row) {
-      for (const auto v : part.leaves())
-        append(row, v, elimination.edge(static_cast<std::uint32_t>(part.size() + row), v));
+      elimination.for_each_below(static_cast<std::uint32_t>(part.size() + row),
+                                 [&](std::uint32_t v, Weight weight) { append(row, v, weight); });
     }
   }
   sort(entries);
@@ -322,7 +328,7 @@ std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs) {
   const auto local = all_local_derivatives(graph, guards, part, true);
   const auto adjoint = adjoints(graph, guards, part, local, e);
 
-  Elimination elimination(graph, guards, part.size());
+  Elimination elimination(guards, part.size());
   add_edges(graph, elimination, part, local);
   for (std::uint32_t v = 0; v < part.size(); ++v) {
     const auto n = graph.node(part.node[v]);
@@ -338,14 +344,12 @@ std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs) {
   elimination.eliminate(part.operations());
 
   std::vector<Entry> entries;
-  const auto leaves = part.leaves();
-  for (const auto u : leaves) {
-    for (const auto v : leaves) {
-      if (part.input_of[u] < part.input_of[v]) continue;
-      const Expr value = guards.total(elimination.interaction(u, v));
-      if (value == Expr{}) continue;
+  for (const auto u : part.leaves()) {
+    elimination.for_each_interaction(u, [&](std::uint32_t v, Weight weight) {
+      const Expr value = part.input_of[v] <= part.input_of[u] ? guards.total(weight) : Expr{};
+      if (value == Expr{}) return;
       entries.push_back({static_cast<int>(part.input_of[u]), static_cast<int>(part.input_of[v]), value});
-    }
+    });
   }
   sort(entries);
   return entries;

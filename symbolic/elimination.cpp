@@ -3,146 +3,141 @@
 #include <algorithm>
 #include <queue>
 #include <tuple>
-#include <utility>
 
 namespace spacetime::symbolic {
 namespace {
 
-constexpr std::uint64_t no_key = ~std::uint64_t{0};
-
-std::uint64_t key_of(std::uint32_t row, std::uint32_t column) { return std::uint64_t{row} << 32 | column; }
+// How long vertices wait, found by search over planar and spatial arms and trees of links; the result is flat around
+// these values.  A curved vertex spreads its curvature over all pairs below it; what is done in a linear combination
+// of inputs need not be done in each of them.
+constexpr std::uint64_t curved_waits = 8;
+constexpr std::uint64_t linear_waits = 16;
 
 }  // namespace
 
-PairTable::PairTable() : keys_(256, no_key), weights_(256) {}
-
-std::size_t PairTable::slot_of(std::uint64_t key) const {
-  const auto mask = keys_.size() - 1;
-  auto slot = (key * 0x9e3779b97f4a7c15) >> 20 & mask;
-  while (keys_[slot] != key && keys_[slot] != no_key) slot = (slot + 1) & mask;
-  return slot;
-}
-
-Weight& PairTable::at(std::uint32_t row, std::uint32_t column, bool& is_new) {
-  if (2 * (used_ + 1) > keys_.size()) grow();
-  const auto slot = slot_of(key_of(row, column));
-  is_new = keys_[slot] == no_key;
-  if (is_new) {
-    keys_[slot] = key_of(row, column);
-    weights_[slot] = {};
-    ++used_;
-  }
-  return weights_[slot];
-}
-
-Weight PairTable::get(std::uint32_t row, std::uint32_t column) const {
-  const auto slot = slot_of(key_of(row, column));
-  return keys_[slot] == no_key ? Weight{} : weights_[slot];
-}
-
-void PairTable::grow() {
-  const auto keys = std::exchange(keys_, std::vector<std::uint64_t>(keys_.size() * 2, no_key));
-  const auto weights = std::exchange(weights_, std::vector<Weight>(keys_.size()));
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (keys[i] == no_key) continue;
-    const auto slot = slot_of(keys[i]);
-    keys_[slot] = keys[i];
-    weights_[slot] = weights[i];
-  }
-}
-
-Elimination::Elimination(Graph& graph, Guards& guards, std::size_t vertices)
-    : graph_(graph), guards_(guards), vertices_(vertices) {}
+Elimination::Elimination(Guards& guards, std::size_t vertices)
+    : guards_(guards), vertices_(vertices), place_(vertices) {}
 
 void Elimination::add_edge(std::uint32_t above, std::uint32_t below, Weight weight) {
-  bool is_new = false;
-  auto& edge = edges_.at(above, below, is_new);
-  edge = is_new ? weight : guards_.plus(edge, weight);
-  if (is_new) {
-    vertices_[above].below.push_back(below);
-    vertices_[below].above.push_back(above);
-    ++vertices_[above].below_count;
-    ++vertices_[below].above_count;
-  }
+  open(vertices_[above].below);
+  add_below(above, below, weight);
+  close(vertices_[above].below);
 }
 
 void Elimination::add_interaction(std::uint32_t u, std::uint32_t v, Weight weight) {
-  bool is_new = false;
-  auto& interaction = interactions_.at(std::max(u, v), std::min(u, v), is_new);
-  interaction = is_new ? weight : guards_.plus(interaction, weight);
-  if (!is_new) return;
-  if (u == v) {
-    vertices_[u].curved = true;
-  } else {
-    for (const auto& [from, to] : {std::pair(u, v), std::pair(v, u)}) {
-      vertices_[from].interacts.push_back(to);
-      ++vertices_[from].interacts_count;
-    }
-  }
+  open(vertices_[u].interacts);
+  add_beside(u, v, weight);
+  close(vertices_[u].interacts);
 }
 
-Weight Elimination::interaction(std::uint32_t u, std::uint32_t v) const {
-  return interactions_.get(std::max(u, v), std::min(u, v));
+void Elimination::open(const std::vector<Link>& links) {
+  for (const auto& link : links) place_[link.vertex] = link.weight + 1;
+}
+
+void Elimination::close(const std::vector<Link>& links) {
+  for (const auto& link : links) place_[link.vertex] = 0;
+}
+
+// With the row vertices_[above].below open.
+void Elimination::add_below(std::uint32_t above, std::uint32_t below, Weight weight) {
+  auto& place = place_[below];
+  if (place > 0) {
+    weights_[place - 1] = guards_.plus(weights_[place - 1], weight);
+    return;
+  }
+  const auto index = static_cast<std::uint32_t>(weights_.size());
+  weights_.push_back(weight);
+  place = index + 1;
+  vertices_[above].below.push_back({below, index});
+  vertices_[below].above.push_back({above, index});
+  ++vertices_[above].below_count;
+  ++vertices_[below].above_count;
+}
+
+// With the row vertices_[u].interacts open.
+void Elimination::add_beside(std::uint32_t u, std::uint32_t v, Weight weight) {
+  if (u == v) {
+    vertices_[u].curvature = guards_.plus(vertices_[u].curvature, weight);
+    return;
+  }
+  auto& place = place_[v];
+  if (place > 0) {
+    weights_[place - 1] = guards_.plus(weights_[place - 1], weight);
+    return;
+  }
+  const auto index = static_cast<std::uint32_t>(weights_.size());
+  weights_.push_back(weight);
+  place = index + 1;
+  for (const auto& [from, to] : {std::pair(u, v), std::pair(v, u)}) {
+    vertices_[from].interacts.push_back({to, index});
+    ++vertices_[from].interacts_count;
+  }
 }
 
 std::uint64_t Elimination::cost(std::uint32_t v) const {
   const auto& vertex = vertices_[v];
-  const std::uint64_t below = vertex.below_count;
-  return below * (std::uint64_t{vertex.above_count} + vertex.interacts_count) +
-         (vertex.curved ? below * (below + 3) / 2 : 0);
+  const std::uint64_t below = vertex.below_count, others = vertex.above_count + vertex.interacts_count;
+  return below * others + (vertex.curvature.is_zero() ? 0 : curved_waits * below * below) +
+         (vertex.linear ? linear_waits : 0);
 }
 
-std::vector<std::uint32_t> Elimination::remaining(const std::vector<std::uint32_t>& neighbours) const {
-  std::vector<std::uint32_t> result;
-  for (const auto v : neighbours) {
-    if (!vertices_[v].gone) result.push_back(v);
-  }
-  std::ranges::sort(result);
-  return result;
+void Elimination::compact(std::vector<Link>& links) const {
+  std::erase_if(links, [&](const Link& link) { return vertices_[link.vertex].gone; });
 }
 
 void Elimination::remove(std::uint32_t v) {
-  const auto above = remaining(vertices_[v].above), below = remaining(vertices_[v].below),
-             interacts = remaining(vertices_[v].interacts);
-  vertices_[v].gone = true;
-  for (const auto w : above) --vertices_[w].below_count;
-  for (const auto u : below) --vertices_[u].above_count;
-  for (const auto x : interacts) --vertices_[x].interacts_count;
-
-  const auto curvature = interaction(v, v);
-  for (std::size_t i = 0; i < below.size(); ++i) {
-    const auto u = below[i];
-    const auto c = edge(v, u);
-    for (const auto w : above) add_edge(w, u, guards_.times(edge(w, v), c));
-    for (const auto x : interacts) {
-      const auto product = guards_.times(interaction(v, x), c);
-      if (product.is_zero()) continue;
-      add_interaction(u, x, u == x ? guards_.plus(product, product) : product);
+  auto& vertex = vertices_[v];
+  vertex.gone = true;
+  compact(vertex.above);
+  compact(vertex.below);
+  compact(vertex.interacts);
+  for (const auto& w : vertex.above) {
+    open(vertices_[w.vertex].below);
+    for (const auto& u : vertex.below) {
+      add_below(w.vertex, u.vertex, guards_.times(weights_[w.weight], weights_[u.weight]));
     }
-    if (!curvature.is_zero()) {
-      const auto bent = guards_.times(curvature, c);
-      for (std::size_t j = 0; j <= i; ++j) add_interaction(u, below[j], guards_.times(bent, edge(v, below[j])));
-    }
+    close(vertices_[w.vertex].below);
+    --vertices_[w.vertex].below_count;
   }
+  for (std::size_t i = 0; i < vertex.below.size(); ++i) {
+    const auto u = vertex.below[i].vertex;
+    const auto c = weights_[vertex.below[i].weight];
+    open(vertices_[u].interacts);
+    for (const auto& x : vertex.interacts) {
+      const auto product = guards_.times(weights_[x.weight], c);
+      add_beside(u, x.vertex, u == x.vertex ? guards_.plus(product, product) : product);
+    }
+    if (!vertex.curvature.is_zero()) {
+      const auto bent = guards_.times(vertex.curvature, c);
+      for (std::size_t j = 0; j <= i; ++j) {
+        add_beside(u, vertex.below[j].vertex, guards_.times(bent, weights_[vertex.below[j].weight]));
+      }
+    }
+    close(vertices_[u].interacts);
+    --vertices_[u].above_count;
+  }
+  for (const auto& x : vertex.interacts) --vertices_[x.vertex].interacts_count;
 }
 
 void Elimination::eliminate(std::span<const std::uint32_t> vertices) {
-  using Candidate = std::tuple<std::uint64_t, std::uint32_t>;  // cost, then the newest node first
+  using Candidate = std::tuple<std::uint64_t, std::uint32_t>;  // cost, then operands first
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   std::vector<std::uint8_t> wanted(vertices_.size());
+  std::vector<std::uint64_t> offered(vertices_.size(), ~std::uint64_t{0});
   const auto offer = [&](std::uint32_t v) {
-    if (wanted[v] && !vertices_[v].gone) queue.emplace(cost(v), ~v);
+    if (!wanted[v] || vertices_[v].gone) return;
+    const auto now = cost(v);
+    if (now != offered[v]) queue.emplace(offered[v] = now, v);
   };
   for (const auto v : vertices) wanted[v] = 1;
   for (const auto v : vertices) offer(v);
   while (!queue.empty()) {
-    const auto [known, inverse] = queue.top();
+    const auto [known, v] = queue.top();
     queue.pop();
-    const auto v = ~inverse;
-    if (vertices_[v].gone || cost(v) != known) continue;  // an offer that has been overtaken
+    if (vertices_[v].gone || offered[v] != known) continue;  // an offer that has been overtaken
     remove(v);
-    for (const auto* neighbours : {&vertices_[v].above, &vertices_[v].below, &vertices_[v].interacts}) {
-      for (const auto u : *neighbours) offer(u);
+    for (const auto* links : {&vertices_[v].above, &vertices_[v].below, &vertices_[v].interacts}) {
+      for (const auto& link : *links) offer(link.vertex);
     }
   }
 }

@@ -279,13 +279,11 @@ Expr Graph::multiply(Expr a, Expr b) {
     const Expr product = multiply(minus_a ? node(a).a : a, minus_b ? node(b).a : b);
     return minus_a == minus_b ? product : negate(product);
   }
-  // Numbers gather outside.
-  const bool scaled_a = is_operation(a, Op::multiply) && is_constant(node(a).a);
-  const bool scaled_b = is_operation(b, Op::multiply) && is_constant(node(b).a);
-  if (scaled_a || scaled_b) {
-    const Expr product = multiply(scaled_a ? node(a).b : a, scaled_b ? node(b).b : b);
-    const Expr ka = scaled_a ? node(a).a : number(1), kb = scaled_b ? node(b).a : number(1);
-    return scaled(scaled(ka, kb), product);
+  // Two numbers gather outside; a single one stays with its factor, where it is made once for many products.
+  const auto is_scaled = [&](Expr e) { return is_operation(e, Op::multiply) && is_constant(node(e).a); };
+  if (is_scaled(a) && is_scaled(b)) {
+    const Expr k = scaled(node(a).a, node(b).a), x = node(a).b, y = node(b).b;
+    return scaled(k, multiply(x, y));
   }
   return make(Op::multiply, std::min(a, b), std::max(a, b));
 }
