@@ -75,7 +75,8 @@ std::vector<double> residuals(const Problem& problem, const Constraint& constrai
 TEST(Scenes, ArmTorquesAreTheReferences) {
   const Problem problem = problem_of(file_text("examples/throw_eliminated.scene"));
   const std::string integrand = problem.objective.at(0).pieces.at(0).program;
-  for (const json& sample : reference("arm3_samples.json").at("samples")) {
+  const json samples = reference("arm3_samples.json").at("samples");
+  for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("q"), sample.at("qd"), sample.at("qdd"));
     const auto force = plotted(problem, "arm.force", state);
     double sum = 0;
@@ -149,7 +150,8 @@ TEST(Scenes, P92AtTheTestPoint) {
 
 TEST(Scenes, PlayersForcesAndHandAreTheReferences) {
   const Problem problem = problem_of(file_text("examples/player_craig.scene"));
-  for (const json& sample : reference("player_samples.json").at("samples")) {
+  const json samples = reference("player_samples.json").at("samples");
+  for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("q"), sample.at("qd"), sample.at("qdd"));
     const auto force = plotted(problem, "player.force", state), hand = plotted(problem, "player.hand", state);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -172,7 +174,8 @@ creature acrobat {
   link trunk { revolute WAIST axis (0, 0, 1) origin (0.5, 0, 0); mass 5; com (0.25, 0, 0); inertia (0, 5/48, 5/48) }
 }
 )");
-  for (const json& sample : reference("acrobat_samples.json").at("samples")) {
+  const json samples = reference("acrobat_samples.json").at("samples");
+  for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("s"), sample.at("sd"), sample.at("sdd"));
     const auto force = plotted(problem, "acrobat.force", state);
     for (std::size_t i = 0; i < 4; ++i) {
