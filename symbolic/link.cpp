@@ -192,8 +192,8 @@ void set_joint(Model& model, Creature& creature, const LinkDeclaration& declarat
     return;
   }
   if (joint->kind == Kind::fixed) return;
+  if (joint->dof.text.empty()) return;  // reported by the parser
   link.joint = joint->kind == Kind::revolute ? Link::Joint::revolute : Link::Joint::prismatic;
-  if (joint->dof.text.empty()) return;
   declare_member(model, creature, joint->dof);
   Joint out;
   out.name = joint->dof.text;

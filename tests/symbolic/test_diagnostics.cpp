@@ -255,7 +255,7 @@ TEST(Diagnostics, WhatADamagedStatementDeclaresIsNotMissedLater) {
     EXPECT_EQ(result.diagnostics.size(), 1U)
         << slip << ": " << result.diagnostics.at(0).message << " / " << result.diagnostics.back().message;
   }
-  const std::string creature = "creature g { link a { revolute } }\nlet y = g.elbow + dot(g.hand, g.q)\n";
+  const std::string creature = "creature g { link a { revolute } }\nlet y = g.elbow + dot(g.hand, g.q) + g.a.x\n";
   EXPECT_EQ(compile(head + creature).diagnostics.size(), 1U);
   EXPECT_EQ(compile("time [0, 2\ntrajectory bspline spans 8\ndof x\n").diagnostics.size(), 1U);
   EXPECT_EQ(compile("time [0, 2]\ntrajectory bspline spas 8\ndof x\n").diagnostics.size(), 1U);
