@@ -19,55 +19,82 @@ Elimination::Elimination(Guards& guards, std::size_t vertices)
     : guards_(guards), vertices_(vertices), place_(vertices) {}
 
 void Elimination::add_edge(std::uint32_t above, std::uint32_t below, Weight weight) {
-  open(vertices_[above].below);
+  open_below(above);
   add_below(above, below, weight);
-  close(vertices_[above].below);
+  close();
 }
 
 void Elimination::add_interaction(std::uint32_t u, std::uint32_t v, Weight weight) {
-  open(vertices_[u].interacts);
+  if (vertices_[u].interacts.size() < vertices_[v].interacts.size()) std::swap(u, v);
+  for (const auto& link : vertices_[v].interacts) {
+    if (link.vertex == u) note(v, link.weight);
+  }
   add_beside(u, v, weight);
-  close(vertices_[u].interacts);
+  close();
 }
 
-void Elimination::open(const std::vector<Link>& links) {
-  for (const auto& link : links) place_[link.vertex] = link.weight + 1;
+void Elimination::note(std::uint32_t neighbour, std::uint32_t weight) {
+  place_[neighbour] = weight + 1;
+  noted_.push_back(neighbour);
 }
 
-void Elimination::close(const std::vector<Link>& links) {
-  for (const auto& link : links) place_[link.vertex] = 0;
+void Elimination::open_below(std::uint32_t above) {
+  for (const auto& link : vertices_[above].below) note(link.vertex, link.weight);
 }
 
-// With the row vertices_[above].below open.
+// Notes all of u's row or, where that is longer, looks for u in the rows of those that may be added.
+void Elimination::open_beside(std::uint32_t u, const Vertex& v) {
+  std::size_t theirs = 0;
+  for (const auto* links : {&v.interacts, &v.below}) {
+    for (const auto& x : *links) theirs += x.vertex == u ? 0 : vertices_[x.vertex].interacts.size();
+  }
+  if (vertices_[u].interacts.size() <= theirs) {
+    for (const auto& link : vertices_[u].interacts) note(link.vertex, link.weight);
+    return;
+  }
+  for (const auto* links : {&v.interacts, &v.below}) {
+    for (const auto& x : *links) {
+      if (x.vertex == u) continue;
+      for (const auto& link : vertices_[x.vertex].interacts) {
+        if (link.vertex == u) note(x.vertex, link.weight);
+      }
+    }
+  }
+}
+
+void Elimination::close() {
+  for (const auto v : noted_) place_[v] = 0;
+  noted_.clear();
+}
+
+// With the row of `above` open.
 void Elimination::add_below(std::uint32_t above, std::uint32_t below, Weight weight) {
-  auto& place = place_[below];
-  if (place > 0) {
+  if (const auto place = place_[below]; place > 0) {
     weights_[place - 1] = guards_.plus(weights_[place - 1], weight);
     return;
   }
   const auto index = static_cast<std::uint32_t>(weights_.size());
   weights_.push_back(weight);
-  place = index + 1;
+  note(below, index);
   vertices_[above].below.push_back({below, index});
   vertices_[below].above.push_back({above, index});
   ++vertices_[above].below_count;
   ++vertices_[below].above_count;
 }
 
-// With the row vertices_[u].interacts open.
+// With the row of u open.
 void Elimination::add_beside(std::uint32_t u, std::uint32_t v, Weight weight) {
   if (u == v) {
     vertices_[u].curvature = guards_.plus(vertices_[u].curvature, weight);
     return;
   }
-  auto& place = place_[v];
-  if (place > 0) {
+  if (const auto place = place_[v]; place > 0) {
     weights_[place - 1] = guards_.plus(weights_[place - 1], weight);
     return;
   }
   const auto index = static_cast<std::uint32_t>(weights_.size());
   weights_.push_back(weight);
-  place = index + 1;
+  note(v, index);
   for (const auto& [from, to] : {std::pair(u, v), std::pair(v, u)}) {
     vertices_[from].interacts.push_back({to, index});
     ++vertices_[from].interacts_count;
@@ -92,17 +119,17 @@ void Elimination::remove(std::uint32_t v) {
   compact(vertex.below);
   compact(vertex.interacts);
   for (const auto& w : vertex.above) {
-    open(vertices_[w.vertex].below);
+    open_below(w.vertex);
     for (const auto& u : vertex.below) {
       add_below(w.vertex, u.vertex, guards_.times(weights_[w.weight], weights_[u.weight]));
     }
-    close(vertices_[w.vertex].below);
+    close();
     --vertices_[w.vertex].below_count;
   }
   for (std::size_t i = 0; i < vertex.below.size(); ++i) {
     const auto u = vertex.below[i].vertex;
     const auto c = weights_[vertex.below[i].weight];
-    open(vertices_[u].interacts);
+    open_beside(u, vertex);
     for (const auto& x : vertex.interacts) {
       const auto product = guards_.times(weights_[x.weight], c);
       add_beside(u, x.vertex, u == x.vertex ? guards_.plus(product, product) : product);
@@ -113,7 +140,7 @@ void Elimination::remove(std::uint32_t v) {
         add_beside(u, vertex.below[j].vertex, guards_.times(bent, weights_[vertex.below[j].weight]));
       }
     }
-    close(vertices_[u].interacts);
+    close();
     --vertices_[u].above_count;
   }
   for (const auto& x : vertex.interacts) --vertices_[x.vertex].interacts_count;

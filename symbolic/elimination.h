@@ -61,9 +61,12 @@ class Elimination {
   std::uint64_t cost(std::uint32_t v) const;
   void remove(std::uint32_t v);
   void compact(std::vector<Link>& links) const;
-  // Notes where the weights of these neighbours are, for add_below and add_beside.
-  void open(const std::vector<Link>& links);
-  void close(const std::vector<Link>& links);
+  // Opens a vertex's row: notes where the weights of its neighbours are, for add_below and add_beside.
+  void open_below(std::uint32_t above);
+  // ... for additions to the vertices that v interacts with and those below it.
+  void open_beside(std::uint32_t u, const Vertex& v);
+  void note(std::uint32_t neighbour, std::uint32_t weight);
+  void close();
   void add_below(std::uint32_t above, std::uint32_t below, Weight weight);
   void add_beside(std::uint32_t u, std::uint32_t v, Weight weight);
 
@@ -71,6 +74,7 @@ class Elimination {
   std::vector<Vertex> vertices_;
   std::vector<Weight> weights_;
   std::vector<std::uint32_t> place_;  // of each vertex, in the row that is open: 1 + index into weights_, or 0
+  std::vector<std::uint32_t> noted_;  // the vertices that have a place
 };
 
 }  // namespace spacetime::symbolic
