@@ -39,8 +39,6 @@ const Word* link_word(const Token& token) {
   return nullptr;
 }
 
-constexpr std::array<std::string_view, 4> creature_words{"gravity", "link", "point", "force"};
-
 bool is_joint(Kind kind) { return kind == Kind::revolute || kind == Kind::prismatic || kind == Kind::fixed; }
 
 LinkItem parse_one(Parsing& p, const Word& word) {

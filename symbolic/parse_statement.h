@@ -1,6 +1,7 @@
 // Statements: each function starts behind the statement's first word.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 
@@ -28,6 +29,9 @@ std::optional<WeightClause> parse_weight(Parsing& p);
 NodeId parse_weight_value(Parsing& p, bool& infinite);
 std::vector<Assignment> parse_assignments(Parsing& p);
 std::optional<Interval> parse_bounds(Parsing& p);  // "[in [lo, hi]]"
+
+// The words that items of a creature begin with.
+inline constexpr std::array<std::string_view, 4> creature_words{"gravity", "link", "point", "force"};
 
 // Reports a line that begins with a binary operator.
 bool refuse_leading_operator(Parsing& p);

@@ -69,15 +69,16 @@ bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, voi
   bool damaged = false;
   if (!p.in.accept(TokenKind::left_brace)) {
     p.in.fail("'{'");
-    p.in.go_on();  // as if it stood here
+    p.in.go_on();  // from where it stands on this line, or as if it stood here
+    if (p.in.skip_to(TokenKind::left_brace)) p.in.take();
     damaged = true;
   }
   while (true) {
     while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
     if (p.in.accept(TokenKind::right_brace)) return damaged;
     const bool lost = p.in.at(TokenKind::end) || p.in.at_statement();
-    const bool left =
-        p.in.at(TokenKind::name) && std::find(outer.begin(), outer.end(), p.in.peek().text) != outer.end();
+    const bool left = p.in.at(TokenKind::name) && p.in.peek().line_start &&
+                      std::find(outer.begin(), outer.end(), p.in.peek().text) != outer.end();
     if (lost || left) {
       if (opened.kind == TokenKind::left_brace)
         p.in.fail(p.in.peek().span,
@@ -102,22 +103,45 @@ bool parse_braces(Parsing& p, std::string_view owner, void (*item)(Parsing&, voi
   }
 }
 
+namespace {
+// Items of a creature that stand outside one: a '}' came too early.  The first of a row is reported.
+bool at_stray_item(const Parsing& p) {
+  const std::string_view word = p.in.peek().text;
+  return p.in.at(TokenKind::name) && (p.in.next().kind == TokenKind::name || word == "gravity") &&
+         std::find(creature_words.begin(), creature_words.end(), word) != creature_words.end();
+}
+}  // namespace
+
 Scene parse(std::string_view text, std::vector<Diagnostic>& diagnostics) {
   Scene scene;
   Lexed lexed = lex(text, diagnostics);
   if (!lexed.is_text) return scene;
   Parsing p{TokenReader(std::move(lexed.tokens), diagnostics), scene};
+  bool straying = false;
   while (true) {
     while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
     if (p.in.at(TokenKind::end)) return scene;
-    if (refuse_leading_operator(p)) {
+    if (at_stray_item(p)) {
+      if (!straying)
+        p.in.fail(p.in.peek().span,
+                  quoted(p.in.peek().text) + " can stand only inside 'creature { }': is a '}' too early?");
+      p.in.give_up();
+      straying = true;
+      for (Statement& statement : scene.statements)
+        if (auto* creature = std::get_if<CreatureDeclaration>(&statement.what)) creature->damaged = true;
+    } else if (straying && p.in.accept(TokenKind::right_brace)) {
+      straying = false;
+    } else if (refuse_leading_operator(p)) {
       p.in.take();
     } else {
       scene.statements.push_back(parse_statement(p));
     }
     if (p.in.failed()) {
       p.in.recover();
-      if (p.in.at(TokenKind::right_brace)) p.in.take();  // the end of a block that has been given up
+      if (p.in.at(TokenKind::right_brace)) {  // the end of a block that has been given up
+        p.in.take();
+        straying = false;
+      }
     }
   }
 }

@@ -107,6 +107,15 @@ void TokenReader::fail(Span span, std::string message, std::vector<Diagnostic::N
   failed_ = true;
 }
 
+bool TokenReader::skip_to(TokenKind kind) {
+  for (std::size_t i = i_; i < tokens_.size(); ++i) {
+    const TokenKind here = tokens_[i].kind;
+    if (here == kind) return i_ = i, true;
+    if (here == TokenKind::line_end || here == TokenKind::semicolon || here == TokenKind::end) return false;
+  }
+  return false;
+}
+
 void TokenReader::recover() {
   brackets_ = 0;
   failed_ = false;

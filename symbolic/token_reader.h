@@ -43,6 +43,9 @@ class TokenReader {
   void give_up() { failed_ = true; }  // fails without a report
   void go_on() { failed_ = false; }   // after a report that costs nothing that follows
 
+  // On to the next token of this kind in the same statement's line; false, and nothing done, where there is none.
+  bool skip_to(TokenKind kind);
+
   // After a mistake: on to the next separator outside brackets, to the `}` of the block this is in, or to the
   // beginning of a statement, and ready to report again.
   void recover();

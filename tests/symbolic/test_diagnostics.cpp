@@ -208,7 +208,10 @@ TEST(Diagnostics, Creatures) {
            {time + "creature arm {\nlink one { revolute q1; a 1\nlink two { revolute q2; a 1 }\n}\nlet y = arm.q2", 5,
             1, "expected '}' to close 'link one {'"},
            {time + "creature arm {\nlink one { revolute q1; a 1 }\nlet y = arm.q1\nsolve", 5, 1,
-            "expected '}' to close 'creature arm {'"}})
+            "expected '}' to close 'creature arm {'"},
+           {arm(link + "}\nlink two { fixed; a 1 }\npoint hand on two (0, 0, 0)", "let y = arm.hand.x"), 6, 1,
+            "is a '}' too early?"},
+           {arm(link + "link two point { fixed; a 1 }"), 5, 10, "expected '{', found 'point'"}})
     expect_one(wrong);
 }
 

@@ -76,6 +76,7 @@ TEST(Scenes, ArmTorquesAreTheReferences) {
   const Problem problem = problem_of(file_text("examples/throw_eliminated.scene"));
   const std::string integrand = problem.objective.at(0).pieces.at(0).program;
   const json samples = reference("arm3_samples.json").at("samples");
+  ASSERT_FALSE(samples.empty());
   for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("q"), sample.at("qd"), sample.at("qdd"));
     const auto force = plotted(problem, "arm.force", state);
@@ -151,6 +152,7 @@ TEST(Scenes, P92AtTheTestPoint) {
 TEST(Scenes, PlayersForcesAndHandAreTheReferences) {
   const Problem problem = problem_of(file_text("examples/player_craig.scene"));
   const json samples = reference("player_samples.json").at("samples");
+  ASSERT_FALSE(samples.empty());
   for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("q"), sample.at("qd"), sample.at("qdd"));
     const auto force = plotted(problem, "player.force", state), hand = plotted(problem, "player.hand", state);
@@ -175,6 +177,7 @@ creature acrobat {
 }
 )");
   const json samples = reference("acrobat_samples.json").at("samples");
+  ASSERT_FALSE(samples.empty());
   for (const json& sample : samples) {
     const State state = state_of(problem, sample.at("s"), sample.at("sd"), sample.at("sdd"));
     const auto force = plotted(problem, "acrobat.force", state);
