@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -134,6 +136,11 @@ struct Reset {
   bool operator==(const Reset&) const = default;
 };
 
-using Action = std::variant<Solve, Iterate>;
+using Action = std::variant<Solve, Iterate, Window, Refine, Shake, Smooth, Damp, Adapt, Lock, SetConstant, SetWeight,
+                            Enable, Disable, Delete, Replace, Rescope, Bound, PullKeys, Control, Reset>;
+
+// The language's words for actions, in the order of Action's alternatives.
+std::span<const std::string_view> action_names();
+std::string_view name_of(const Action& action);
 
 }  // namespace spacetime

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/diagnostic.h"
 #include "common/sample.h"
 #include "optimizer/newton.h"
 #include "optimizer/sketch.h"
@@ -103,19 +104,29 @@ class Runner {
     if (actions.empty()) actions.push_back({Solve{}, {}});
     Outcome outcome;
     for (const PlacedAction& action : actions) {
-      outcome = std::visit([&](const auto& a) { return perform(a); }, action.action);
+      outcome = std::visit([&](const auto& a) { return perform(a, action); }, action.action);
       if (interrupted_) break;
     }
     return motion(outcome);
   }
 
  private:
-  Outcome perform(const Solve& solve) {
+  Outcome perform(const Solve& solve, const PlacedAction& placed) {
+    if (solve.method == Solve::Method::sqp92) not_built(placed, "the method 'sqp92'");
+    if (solve.method == Solve::Method::bfgs) not_built(placed, "the method 'bfgs'");
+    if (solve.starts > 1) not_built(placed, "'starts'");
     return iterate(options_.iterations.value_or(solve.iterations.value_or(default_iterations)),
                    options_.tolerance.value_or(solve.tolerance));
   }
-  Outcome perform(const Iterate& action) {
+  Outcome perform(const Iterate& action, const PlacedAction&) {
     return iterate(action.iterations, options_.tolerance.value_or(Solve{}.tolerance));
+  }
+  template <class Other>
+  Outcome perform(const Other&, const PlacedAction& placed) {
+    not_built(placed, fmt::format("the action '{}'", name_of(placed.action)));
+  }
+  [[noreturn]] static void not_built(const PlacedAction& placed, std::string_view what) {
+    throw InputError(fmt::format("line {}: {} is not built yet", placed.place.line, what));
   }
 
   Outcome iterate(int limit, double tolerance) {

@@ -12,4 +12,8 @@ void write(Writer& to, const PlacedAction& action);
 // The form alone; check.h the rest.
 PlacedAction action_from(const Node& node);
 
+// The member "keys" of a keyframe or of the action `key`.
+void write_keys(Writer& to, const std::vector<Key>& keys);
+std::vector<Key> keys_from(const Node& node);
+
 }  // namespace spacetime

@@ -37,4 +37,7 @@ inline constexpr int instances = 4'000'000;
 // part of a minute, within which nobody can cancel.
 inline constexpr double evaluated_operations = 1e11;
 
+// How often one `refine` may halve a knot span; after so many halves a double has no middle left.
+inline constexpr int halvings = 52;
+
 }  // namespace spacetime::limits

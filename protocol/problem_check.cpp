@@ -391,6 +391,9 @@ class Check {
     if (iterate.iterations < 0) fail(path + "/iterations", "must not be negative");
   }
 
+  template <class Other>
+  static void action(const Other&, const std::string&) {}
+
   const Problem& problem_;
   std::unordered_map<std::string_view, std::size_t> constants_;  // by name: their place in the list
   Names dofs_;

@@ -2,12 +2,10 @@
 
 #include <array>
 
-#include "common/assert.h"
 #include "protocol/action_json.h"
 #include "protocol/check.h"
-#include "protocol/limits.h"
-#include "protocol/place_json.h"
 #include "protocol/program_json.h"
+#include "protocol/quantity_json.h"
 
 namespace spacetime {
 namespace {
@@ -15,34 +13,8 @@ namespace {
 // Names of enumerations, in their order.
 constexpr std::array<std::string_view, 2> functional_kinds{"integral", "at"};
 constexpr std::array<std::string_view, 3> piece_kinds{"integral", "at", "once"};
-constexpr std::array<std::string_view, 6> scope_kinds{"once", "times", "every", "count", "knots", "whole"};
 constexpr std::array<std::string_view, 4> shapes{"capsule", "sphere", "box", "none"};
 constexpr std::array<std::string_view, 1> relations{"="};
-
-template <std::size_t n, class Kind>
-std::string_view name_in(const std::array<std::string_view, n>& names, Kind kind) {
-  SPACETIME_ASSERT(static_cast<std::size_t>(kind) < n);
-  return names[static_cast<std::size_t>(kind)];
-}
-
-void member(Writer& to, std::string_view name, const Quantity& quantity) {
-  to.key(name);
-  write(to, quantity);
-}
-
-void member(Writer& to, std::string_view name, const std::optional<Quantity>& quantity) {
-  if (quantity) member(to, name, *quantity);
-}
-
-void member(Writer& to, std::string_view name, const std::vector<Quantity>& quantities) {
-  to.key(name);
-  to.list_of(quantities, [&](const Quantity& quantity) { write(to, quantity); });
-}
-
-std::optional<Quantity> optional_quantity(const Node& node, std::string_view name) {
-  const auto found = node.find(name);
-  return found ? std::optional(quantity_from(*found)) : std::nullopt;
-}
 
 void write(Writer& to, const Constant& constant) {
   to.object([&] {
@@ -74,9 +46,9 @@ Dof dof_from(const Node& node) {
 
 // Functionals and pieces are alike: what is summed, and over which time or at which.
 template <class Summed>
-void write_summed(Writer& to, const Summed& summed, std::string_view kind) {
+void write_summed(Writer& to, const Summed& summed, std::span<const std::string_view> kinds) {
   to.object([&] {
-    to.member("kind", kind);
+    to.choice("kind", kinds, summed.kind);
     to.member("program", summed.program);
     to.member("output", summed.output);
     if (summed.kind == Summed::Kind::at) {
@@ -107,47 +79,6 @@ Summed summed_from(const Node& node, std::span<const std::string_view> kinds) {
   return summed;
 }
 
-void write(Writer& to, const Scope& scope) {
-  to.object([&] {
-    to.member("kind", name_in(scope_kinds, scope.kind));
-    if (scope.kind == Scope::Kind::times) member(to, "times", scope.times);
-    if (scope.kind == Scope::Kind::once || scope.kind == Scope::Kind::times || scope.kind == Scope::Kind::whole) return;
-    member(to, "from", scope.from);
-    member(to, "to", scope.to);
-    if (scope.kind == Scope::Kind::every) member(to, "step", scope.step);
-    if (scope.kind == Scope::Kind::count) to.member("count", scope.count);
-  });
-}
-
-Scope scope_from(const Node& node) {
-  Scope scope;
-  scope.kind = static_cast<Scope::Kind>(node["kind"].choice(scope_kinds));
-  switch (scope.kind) {
-    case Scope::Kind::once:
-    case Scope::Kind::whole:
-      node.object({"kind"});
-      return scope;
-    case Scope::Kind::times:
-      node.object({"kind", "times"});
-      scope.times = node["times"].each(quantity_from);
-      return scope;
-    case Scope::Kind::every:
-      node.object({"kind", "from", "to", "step"});
-      scope.step = quantity_from(node["step"]);
-      break;
-    case Scope::Kind::count:
-      node.object({"kind", "from", "to", "count"});
-      scope.count = node["count"].integer(2, limits::instances);
-      break;
-    case Scope::Kind::knots:
-      node.object({"kind", "from", "to"});
-      break;
-  }
-  scope.from = quantity_from(node["from"]);
-  scope.to = quantity_from(node["to"]);
-  return scope;
-}
-
 void write(Writer& to, const Constraint& constraint) {
   to.object([&] {
     to.member("name", constraint.name);
@@ -172,7 +103,7 @@ void write(Writer& to, const Term& term) {
     to.member("name", term.name);
     member(to, "weight", term.weight);
     to.key("pieces");
-    to.list_of(term.pieces, [&](const Piece& piece) { write_summed(to, piece, name_in(piece_kinds, piece.kind)); });
+    to.list_of(term.pieces, [&](const Piece& piece) { write_summed(to, piece, piece_kinds); });
     write_place(to, term.place);
   });
 }
@@ -187,24 +118,14 @@ Term term_from(const Node& node) {
 void write(Writer& to, const Keyframe& keyframe) {
   to.object([&] {
     member(to, "time", keyframe.time);
-    to.key("keys");
-    to.list_of(keyframe.keys, [&](const Key& key) {
-      to.object([&] {
-        to.member("dof", key.dof);
-        member(to, "value", key.value);
-      });
-    });
+    write_keys(to, keyframe.keys);
     write_place(to, keyframe.place);
   });
 }
 
 Keyframe keyframe_from(const Node& node) {
   node.object({"time", "keys"}, {"line", "column"});
-  const auto key_from = [](const Node& key) {
-    key.object({"dof", "value"});
-    return Key{key["dof"].string(), quantity_from(key["value"])};
-  };
-  return {quantity_from(node["time"]), node["keys"].each(key_from), place_from(node)};
+  return {quantity_from(node["time"]), keys_from(node), place_from(node)};
 }
 
 void write(Writer& to, const Plot& plot) {
@@ -224,7 +145,7 @@ Plot plot_from(const Node& node) {
 void write(Writer& to, const Body& body) {
   to.object([&] {
     to.member("name", body.name);
-    to.member("shape", name_in(shapes, body.shape));
+    to.choice("shape", shapes, body.shape);
     member(to, "size", body.size);
     to.member("program", body.program);
     to.key("outputs");
@@ -264,10 +185,7 @@ void write(Writer& to, const Problem& problem) {
             Set::in_lines);
         to.key("functionals");
         to.list_of(
-            problem.functionals,
-            [&](const Functional& functional) {
-              write_summed(to, functional, name_in(functional_kinds, functional.kind));
-            },
+            problem.functionals, [&](const Functional& functional) { write_summed(to, functional, functional_kinds); },
             Set::in_lines);
         statements("constraints", problem.constraints);
         statements("objective", problem.objective);

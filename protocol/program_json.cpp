@@ -101,26 +101,6 @@ Program program_from(const Node& node) {
   return program;
 }
 
-void write(Writer& to, const Quantity& quantity) {
-  if (quantity.program.empty()) {
-    to.number(quantity.number);
-    return;
-  }
-  to.object([&] {
-    to.member("program", quantity.program);
-    to.member("output", quantity.output);
-  });
-}
-
-Quantity quantity_from(const Node& node) {
-  if (node.is_number()) return {node.number(), {}, 0};
-  if (!node.is_object()) node.expected("a number, or an object with program and output");
-  node.object({"program", "output"});
-  Quantity quantity{0, node["program"].string(), node["output"].integer()};
-  if (quantity.program.empty()) node["program"].expected("the name of a program");
-  return quantity;
-}
-
 void write(Writer& to, const Basis& basis) {
   to.object([&] {
     to.member("kind", "bspline");

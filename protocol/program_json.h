@@ -1,4 +1,4 @@
-// Programs, the quantities they compute and splines' bases, in documents.  The layout is explained in README.md.
+// Programs and splines' bases in documents.  The layout is explained in README.md.
 #pragma once
 
 #include "common/problem.h"
@@ -8,12 +8,10 @@
 namespace spacetime {
 
 void write(Writer& to, const Program& program);
-void write(Writer& to, const Quantity& quantity);
 void write(Writer& to, const Basis& basis);
 
 // These check the form alone; check.h the rest.
 Program program_from(const Node& node);
-Quantity quantity_from(const Node& node);
 Basis basis_from(const Node& node);
 
 }  // namespace spacetime

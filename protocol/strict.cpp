@@ -62,6 +62,11 @@ int Node::integer(int least, int most) const {
   expected("an integer from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
+bool Node::boolean() const {
+  if (!json_->is_boolean()) expected("true or false");
+  return json_->get<bool>();
+}
+
 const std::string& Node::string() const {
   if (!json_->is_string()) expected("a string");
   return json_->get_ref<const std::string&>();

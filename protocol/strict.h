@@ -33,6 +33,7 @@ class Node {
   double number() const;
   // JSON knows one kind of number: 2.0 is the integer 2, as in JSON Schema.
   int integer(int least = 0, int most = std::numeric_limits<int>::max()) const;
+  bool boolean() const;
   const std::string& string() const;
   // The index of the string among `names`.
   int choice(std::span<const std::string_view> names) const;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "common/assert.h"
 #include "common/diagnostic.h"
 #include "protocol/json.h"
 
@@ -87,6 +86,11 @@ void Writer::integer(std::int64_t value) {
 void Writer::string(std::string_view value) {
   separate();
   append_string(text_, value);
+}
+
+void Writer::boolean(bool value) {
+  separate();
+  text_ += value ? "true" : "false";
 }
 
 void Writer::null() {

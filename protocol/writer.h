@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/assert.h"
+
 namespace spacetime {
 
 // How the elements of an object or list are set: one after the other, or each on a line of its own.
@@ -46,6 +48,7 @@ class Writer {
   void number(double value);  // the fewest digits that read back as the same bits
   void integer(std::int64_t value);
   void string(std::string_view value);
+  void boolean(bool value);
   void null();
   void numbers(std::span<const double> values);
   void integers(std::span<const std::int32_t> values);
@@ -53,8 +56,17 @@ class Writer {
   // key and value in one.
   void member(std::string_view name, double value) { key(name), number(value); }
   void member(std::string_view name, int value) { key(name), integer(value); }
+  void member(std::string_view name, bool value) { key(name), boolean(value); }
   void member(std::string_view name, std::string_view value) { key(name), string(value); }
   void member(std::string_view name, const char* value) { key(name), string(value); }
+
+  // An enumeration's value by its name; `names` in the enumeration's order.
+  template <class Enumeration>
+  void choice(std::string_view name, std::span<const std::string_view> names, Enumeration value) {
+    const auto index = static_cast<std::size_t>(value);
+    SPACETIME_ASSERT(index < names.size());
+    member(name, names[index]);
+  }
 
   // The text, with a line's end behind it.
   std::string take();

@@ -131,7 +131,7 @@ TEST(ProblemRefuses, WrongForms) {
           {"/keyframes/0/keys/1/value", none, "/keyframes/0/keys/1", R"(the member "value" is missing)"},
           {"/plots/0/outputs", "0", nullptr, "expected a list, found 0"},
           {"/bodies/0/shape", R"("cone")", nullptr, R"(expected "capsule", "sphere", "box" or "none", found "cone")"},
-          {"/actions/0/action", R"("dance")", nullptr, R"(expected "solve" or "iterate", found "dance")"},
+          {"/actions/0/action", R"("dance")", nullptr, R"("control" or "reset", found "dance")"},
           {"/actions/0/iterations", none, "/actions/0", R"(the member "iterations" is missing)"},
           {"/actions/0/iterations", "-3", nullptr, "expected an integer of at least 0, found -3"},
           {"/actions/0/tolerance", "1", nullptr, "unknown member"},
