@@ -11,7 +11,11 @@ namespace spacetime::symbolic {
 namespace {
 
 using Kind = LinkItem::Kind;
-using Items = std::map<Kind, const LinkItem*>;
+
+struct Items {
+  std::map<Kind, const LinkItem*> by_kind;
+  bool damaged = false;
+};
 
 constexpr double default_thickness = 0.05;  // a rod's drawn radius, of its length: slender, yet easily seen
 constexpr double default_ball = 0.05;       // m, the drawn radius of a point mass: about a ball in a hand
@@ -21,10 +25,10 @@ bool is_shape(Kind kind) { return kind == Kind::capsule || kind == Kind::sphere 
 
 // The items by kind, each once, one joint and one shape at most.
 Items sort_items(Model& model, const LinkDeclaration& link) {
-  Items out;
+  Items out{{}, link.damaged};
   const LinkItem *joint = nullptr, *shape = nullptr;
   for (const LinkItem& item : link.items) {
-    const LinkItem*& other = is_joint(item.kind) ? joint : is_shape(item.kind) ? shape : out[item.kind];
+    const LinkItem*& other = is_joint(item.kind) ? joint : is_shape(item.kind) ? shape : out.by_kind[item.kind];
     if (other) {
       const std::string what = is_joint(item.kind)   ? "a link has one joint"
                                : is_shape(item.kind) ? "a link has one shape"
@@ -33,14 +37,14 @@ Items sort_items(Model& model, const LinkDeclaration& link) {
       continue;
     }
     other = &item;
-    out[item.kind] = &item;
+    out.by_kind[item.kind] = &item;
   }
   return out;
 }
 
 const LinkItem* find(const Items& items, Kind kind) {
-  const auto it = items.find(kind);
-  return it == items.end() ? nullptr : it->second;
+  const auto it = items.by_kind.find(kind);
+  return it == items.by_kind.end() ? nullptr : it->second;
 }
 
 const LinkItem* find_any(const Items& items, std::initializer_list<Kind> kinds) {
@@ -50,6 +54,11 @@ const LinkItem* find_any(const Items& items, std::initializer_list<Kind> kinds) 
 }
 
 Vector3 vector_of(const std::vector<Fixed>& v) { return {v[0].expr, v[1].expr, v[2].expr}; }
+
+// Reports what lacks something else, unless that may have been lost.
+void report_lack(Model& model, const Items& items, const Span& span, std::string message) {
+  if (!items.damaged) report(model, span, std::move(message));
+}
 
 // The argument of an item, zero where it is absent or wrong.
 Expr number(Model& model, const Items& items, Kind kind, std::string_view what) {
@@ -85,7 +94,7 @@ void set_geometry(Model& model, const Items& items, Link& link) {
   if (link.joint == Link::Joint::fixed && axis)
     report(model, axis->span, "a fixed joint has no axis: leave it out, or use 'theta' and 'alpha' to turn the link");
   if (link.joint != Link::Joint::fixed && !axis)
-    report(model, placed->span, "a joint with an 'origin' needs an 'axis' too");
+    report_lack(model, items, placed->span, "a joint with an 'origin' needs an 'axis' too");
   Graph& graph = model.graph;
   link.axis =
       vector3(model, items, Kind::axis, "an axis").value_or(Vector3{graph.number(0), graph.number(0), graph.number(1)});
@@ -98,12 +107,12 @@ void set_geometry(Model& model, const Items& items, Link& link) {
 // A uniform thin rod from the frame's origin to p: its middle, and m/12 (|p|^2 I - p p^T).
 void set_rod(Model& model, const Items& items, Link& link, const LinkItem& rod, const Vector3& p) {
   Graph& graph = model.graph;
-  if (!find(items, Kind::mass)) return report(model, rod.span, "a rod needs a 'mass'");
+  if (!find(items, Kind::mass)) return report_lack(model, items, rod.span, "a rod needs a 'mass'");
   if (const LinkItem* other = find_any(items, {Kind::com, Kind::inertia}))
     return report(model, other->span, "a rod has its own centre of mass and inertia: remove these, or the 'rod'",
                   {{rod.span, "the rod is here"}});
   if (!rod.value && model.facts.known(link.a) == 0.0)
-    return report(model, rod.span, "a rod needs a length: give the link an 'a', or write rod (x, y, z)");
+    return report_lack(model, items, rod.span, "a rod needs a length: give the link an 'a', or write rod (x, y, z)");
   const Expr twelfth = graph.divide(link.mass, graph.number(12));
   const auto squared = [&](std::size_t i) { return graph.multiply(p[i], p[i]); };
   for (std::size_t i = 0; i < 3; ++i) {
@@ -147,7 +156,7 @@ void set_mass(Model& model, const Items& items, Link& link, const Vector3& end) 
     report(model, find(items, Kind::mass)->span, "a mass cannot be negative");
   if (const LinkItem* rod = find(items, Kind::rod)) return set_rod(model, items, link, *rod, end);
   if (const LinkItem* com = find(items, Kind::com)) {
-    if (!find(items, Kind::mass)) report(model, com->span, "a centre of mass needs a 'mass'");
+    if (!find(items, Kind::mass)) report_lack(model, items, com->span, "a centre of mass needs a 'mass'");
     link.com = vector3(model, items, Kind::com, "a centre of mass").value_or(Vector3{});
   }
   set_inertia(model, items, link);
@@ -185,9 +194,8 @@ Drawing drawing_of(Model& model, const Items& items, const Link& link, const Vec
 void set_joint(Model& model, Creature& creature, const LinkDeclaration& declaration, const Items& items, Link& link) {
   const LinkItem* joint = find_any(items, {Kind::revolute, Kind::prismatic, Kind::fixed});
   if (!joint) {
-    if (!creature.damaged)
-      report(model, declaration.name.span,
-             "link " + quoted(declaration.name.text) + " needs a joint: revolute, prismatic or fixed");
+    report_lack(model, items, declaration.name.span,
+                "link " + quoted(declaration.name.text) + " needs a joint: revolute, prismatic or fixed");
     creature.damaged = true;
     return;
   }

@@ -85,7 +85,8 @@ LinkDeclaration parse_link(Parsing& p, bool& damaged) {
   LinkDeclaration out;
   out.name = parse_name(p, "the link's name");
   if (p.in.accept_word("on")) out.parent = parse_name(p, "the parent link's name, or 'ground'");
-  damaged = parse_braces(p, "link " + out.name.text, parse_link_item, &out, creature_words) || damaged;
+  out.damaged = parse_braces(p, "link " + out.name.text, parse_link_item, &out, creature_words);
+  damaged = damaged || out.damaged;
   return out;
 }
 

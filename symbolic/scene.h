@@ -124,6 +124,7 @@ struct LinkDeclaration {
   Name name;
   std::optional<Name> parent;
   std::vector<LinkItem> items;
+  bool damaged = false;  // some items were lost to mistakes: what seems to be missing is not reported
 };
 struct PointDeclaration {
   Name name, link;

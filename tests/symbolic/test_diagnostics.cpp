@@ -211,6 +211,8 @@ TEST(Diagnostics, Creatures) {
             "expected '}' to close 'creature arm {'"},
            {arm(link + "}\nlink two { fixed; a 1 }\npoint hand on two (0, 0, 0)", "let y = arm.hand.x"), 6, 1,
             "is a '}' too early?"},
+           {arm("link one { revolute q1; a 1; mass 1..; rod }"), 4, 35, "is not a number"},
+
            {arm(link + "link two point { fixed; a 1 }"), 5, 10, "expected '{', found 'point'"}})
     expect_one(wrong);
 }
