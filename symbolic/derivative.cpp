@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "symbolic/elimination.h"
 #include "symbolic/guarded.h"
@@ -213,6 +214,11 @@ std::vector<Local> all_local_derivatives(Graph& graph, Guards& guards, const Par
     for (int k = 0; k < 3; ++k) {
       if (k >= info(n.op).arity || !part.contains(operands(n)[k])) local.d[k] = {};
     }
+    if (info(n.op).arity == 2 && n.a == n.b) {  // x*x: the one derivative is the sum of both
+      local.d = {guards.plus(local.d[0], local.d[1])};
+      local.aa = graph.add(graph.add(local.aa, local.bb), graph.add(local.ab, local.ab));
+      local.ab = local.bb = {};
+    }
     const bool a = part.contains(n.a), b = info(n.op).arity > 1 && part.contains(n.b);
     if (!a) local.aa = {};
     if (!b) local.bb = {};
@@ -321,37 +327,49 @@ std::vector<Entry> jacobian(Graph& graph, std::span<const Expr> values, std::spa
   return entries;
 }
 
-std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs) {
+std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs, std::optional<Expr> factor) {
   const Part part(graph, {&e, 1}, inputs);
   if (!part.contains(e)) return {};
   Guards guards(graph);
   const auto local = all_local_derivatives(graph, guards, part, true);
   const auto adjoint = adjoints(graph, guards, part, local, e);
 
-  Elimination elimination(guards, part.size());
-  add_edges(graph, elimination, part, local);
+  // To start with, vertices interact by the nodes' own second derivatives times their adjoints.
+  Elimination start(guards, part.size());
+  add_edges(graph, start, part, local);
   for (std::uint32_t v = 0; v < part.size(); ++v) {
     const auto n = graph.node(part.node[v]);
-    const auto interact = [&](Expr x, Expr y, Expr second) {
+    const auto bend = [&](Expr x, Expr y, Expr second) {
       if (second == Expr{}) return;
       const auto weight = guards.times(adjoint[v], {second});
-      if (!weight.is_zero()) elimination.add_interaction(part.at(x), part.at(y), weight);
+      if (!weight.is_zero()) start.add_interaction(part.at(x), part.at(y), weight);
     };
-    interact(n.a, n.a, local[v].aa);
-    interact(n.b, n.b, local[v].bb);
-    interact(n.a, n.b, n.a == n.b ? graph.multiply(graph.number(2), local[v].ab) : local[v].ab);
+    bend(n.a, n.a, local[v].aa);
+    bend(n.b, n.b, local[v].bb);
+    bend(n.a, n.b, local[v].ab);
   }
-  elimination.eliminate(part.operations());
 
-  std::vector<Entry> entries;
-  for (const auto u : part.leaves()) {
-    elimination.for_each_interaction(u, [&](std::uint32_t v, Weight weight) {
-      const Expr value = part.input_of[v] <= part.input_of[u] ? guards.total(weight) : Expr{};
-      if (value == Expr{}) return;
-      entries.push_back({static_cast<int>(part.input_of[u]), static_cast<int>(part.input_of[v]), value});
-    });
-  }
-  sort(entries);
+  const auto entries_of = [&](Elimination elimination) {
+    elimination.eliminate(part.operations());
+    std::vector<Entry> entries;
+    for (const auto u : part.leaves()) {
+      elimination.for_each_interaction(u, [&](std::uint32_t v, Weight weight) {
+        const Expr value = part.input_of[v] <= part.input_of[u] ? guards.total(weight) : Expr{};
+        if (value == Expr{}) return;
+        entries.push_back({static_cast<int>(part.input_of[u]), static_cast<int>(part.input_of[v]), value});
+      });
+    }
+    sort(entries);
+    return entries;
+  };
+  if (!factor) return entries_of(start);
+  // The factor goes where there is less to multiply: the interactions at the start or those at the end.
+  auto scaled = start;
+  const auto interactions = scaled.scale_interactions({*factor});
+  auto entries = entries_of(std::move(scaled));
+  if (entries.size() >= interactions) return entries;
+  entries = entries_of(std::move(start));
+  for (auto& entry : entries) entry.value = graph.multiply(*factor, entry.value);
   return entries;
 }
 

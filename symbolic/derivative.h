@@ -21,7 +21,8 @@ struct Entry {
 // Structurally non-zero entries of d values[row] / d inputs[column], by row, then column.
 std::vector<Entry> jacobian(Graph& graph, std::span<const Expr> values, std::span<const Expr> inputs);
 
-// Structurally non-zero entries of the lower triangle (column <= row) of d2 e / d inputs d inputs.
-std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs);
+// Structurally non-zero entries of the lower triangle (column <= row) of d2 e / d inputs d inputs, times `factor` where
+// there is one.
+std::vector<Entry> hessian(Graph& graph, Expr e, std::span<const Expr> inputs, std::optional<Expr> factor = {});
 
 }  // namespace spacetime::symbolic

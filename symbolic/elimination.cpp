@@ -33,6 +33,21 @@ void Elimination::add_interaction(std::uint32_t u, std::uint32_t v, Weight weigh
   close();
 }
 
+std::size_t Elimination::scale_interactions(Weight factor) {
+  std::size_t count = 0;
+  for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+    auto& vertex = vertices_[v];
+    if (!vertex.curvature.is_zero()) ++count;
+    vertex.curvature = guards_.times(vertex.curvature, factor);
+    for (const auto& link : vertex.interacts) {
+      if (link.vertex > v) continue;
+      ++count;
+      weights_[link.weight] = guards_.times(weights_[link.weight], factor);
+    }
+  }
+  return count;
+}
+
 void Elimination::note(std::uint32_t neighbour, std::uint32_t weight) {
   place_[neighbour] = weight + 1;
   noted_.push_back(neighbour);

@@ -26,6 +26,8 @@ class Elimination {
 
   void add_edge(std::uint32_t above, std::uint32_t below, Weight weight);
   void add_interaction(std::uint32_t u, std::uint32_t v, Weight weight);
+  // Multiplies all h; returns how many there are.
+  std::size_t scale_interactions(Weight factor);
   // Declares a vertex to be a sum of inputs with constant coefficients.
   void set_linear(std::uint32_t v) { vertices_[v].linear = true; }
 

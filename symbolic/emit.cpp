@@ -2,98 +2,63 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <tuple>
 
 #include "symbolic/derivative.h"
+#include "symbolic/lowering.h"
 #include "symbolic/value.h"
 
 namespace spacetime::symbolic {
 namespace {
 
-std::array<Expr, 3> operands(const Graph::Node& n) { return {n.a, n.b, n.c}; }
+bool is_leaf(const Graph& graph, Expr e) { return graph.node(e).kind != Graph::Kind::operation; }
 
-bool is_leaf(const Graph::Node& n) { return n.kind != Graph::Kind::operation; }
-
-// One operation of the program while its operands are still expressions.
-struct Row {
-  Op op = Op::add;
-  std::array<Expr, 3> operand;
-};
-
-// What a node becomes: itself, or a product fused with the sum that alone uses it.
-class Lowering {
- public:
-  Lowering(Graph& graph, std::span<const Expr> roots) : graph_(graph), uses_(graph.size()) {
-    const auto needed = reachable(graph, roots);
-    for (const auto root : roots) uses_[root.id] += 2;  // an output is never fused away
-    for (std::uint32_t id = 0; id < needed.size(); ++id) {
-      const auto& n = graph.node({id});
-      if (!needed[id] || is_leaf(n)) continue;
-      for (int k = 0; k < info(n.op).arity; ++k) ++uses_[operands(n)[k].id];
-    }
-  }
-
-  Row row(Expr e) {
-    const auto n = graph_.node(e);
-    if (n.op == Op::add) {
-      for (const auto& [product, other] : {std::pair(n.b, n.a), std::pair(n.a, n.b)}) {
-        if (!fuses(product)) continue;
-        const auto& p = graph_.node(product);
-        return {Op::multiply_add, {p.a, p.b, other}};
-      }
-    }
-    if (n.op == Op::subtract && fuses(n.b)) {
-      const auto p = graph_.node(n.b);
-      if (graph_.constant(p.a)) return {Op::multiply_add, {graph_.negate(p.a), p.b, n.a}};
-    }
-    return {n.op, operands(n)};
-  }
-
- private:
-  bool fuses(Expr e) const { return graph_.is_operation(e, Op::multiply) && uses_[e.id] == 1; }
-
-  Graph& graph_;
-  std::vector<std::uint32_t> uses_;
-};
+std::size_t key(Signed value) { return std::size_t{value.node.id} * 2 + (value.minus ? 1 : 0); }
+std::size_t key(Expr leaf) { return key(Signed{leaf}); }
 
 // Writes operations in an order in which each is computed shortly before it is needed.
-class Scheduler {
+class Schedule {
  public:
-  Scheduler(Graph& graph, Lowering& lowering) : graph_(graph), lowering_(lowering), done_(graph.size()) {}
+  Schedule(Graph& graph, Lowering& lowering) : graph_(graph), lowering_(lowering) {}
 
   void compute(Expr root) {
-    std::vector<std::pair<Expr, Row>> stack;
-    const auto visit = [&](Expr e) {
-      if (is_leaf(graph_.node(e))) {
-        leaves_.push_back(e);
-      } else if (!done_[e.id]) {
-        stack.emplace_back(e, lowering_.row(e));
-        return true;
+    std::vector<std::pair<Signed, Operation>> stack;
+    // Whether the value has to be made first.
+    const auto visit = [&](Signed value) {
+      if (is_leaf(graph_, value.node) && !value.minus) {
+        leaves_.push_back(value.node);
+        return false;
       }
-      return false;
+      if (is_done(value)) return false;
+      stack.emplace_back(value, lowering_.operation(value));
+      return true;
     };
-    if (!visit(root)) return;
+    visit(lowering_.value(root));
     while (!stack.empty()) {
-      const auto [e, row] = stack.back();
+      const auto [value, operation] = stack.back();
       bool ready = true;
-      for (int k = 0; k < info(row.op).arity && ready; ++k) ready = !visit(row.operand[k]);
+      for (int k = 0; k < info(operation.op).arity && ready; ++k) ready = !visit(operation.operand[k]);
       if (!ready) continue;
       stack.pop_back();
-      if (done_[e.id]) continue;
-      done_[e.id] = 1;
-      rows_.emplace_back(e, row);
+      if (is_done(value)) continue;
+      done_[key(value)] = true;
+      rows_.emplace_back(value, operation);
     }
   }
 
-  const std::vector<std::pair<Expr, Row>>& rows() const { return rows_; }
+  const std::vector<std::pair<Signed, Operation>>& rows() const { return rows_; }
   const std::vector<Expr>& leaves() const { return leaves_; }
 
  private:
+  bool is_done(Signed value) {
+    if (key(value) >= done_.size()) done_.resize(2 * graph_.size());
+    return done_[key(value)];
+  }
+
   Graph& graph_;
   Lowering& lowering_;
-  std::vector<std::uint8_t> done_;
-  std::vector<std::pair<Expr, Row>> rows_;
+  std::vector<bool> done_;  // by key
+  std::vector<std::pair<Signed, Operation>> rows_;
   std::vector<Expr> leaves_;
 };
 
@@ -112,16 +77,25 @@ std::vector<Expr> unknowns(const Graph& graph, std::span<const Expr> values) {
   return result;
 }
 
+// Each once: inputs in the order that programs list them, then numbers by size.
+std::vector<Expr> leaves_in_order(const Graph& graph, std::vector<Expr> leaves, std::span<const Expr> inputs) {
+  leaves.insert(leaves.end(), inputs.begin(), inputs.end());
+  std::ranges::sort(leaves);
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  std::ranges::sort(leaves, [&](Expr x, Expr y) {
+    const auto a = graph.constant(x), b = graph.constant(y);
+    if (a || b) return a && b ? *a < *b : b.has_value();
+    return order_of(graph.input_of(x)) < order_of(graph.input_of(y));
+  });
+  return leaves;
+}
+
 // d2 (sum_i multiplier_i values[i]).
 std::vector<Entry> contracted_hessian(Graph& graph, std::span<const Expr> values, std::span<const Expr> inputs) {
   const auto multiplier = [&](std::size_t i) {
     return graph.input({.kind = InputKind::multiplier, .name = {}, .index = static_cast<int>(i)});
   };
-  if (values.size() == 1) {
-    auto entries = hessian(graph, values[0], inputs);
-    for (auto& entry : entries) entry.value = graph.multiply(multiplier(0), entry.value);
-    return entries;
-  }
+  if (values.size() == 1) return hessian(graph, values[0], inputs, multiplier(0));
   Expr sum;
   for (std::size_t i = 0; i < values.size(); ++i) sum = graph.add(sum, graph.multiply(multiplier(i), values[i]));
   return hessian(graph, sum, inputs);
@@ -143,55 +117,43 @@ Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives
   for (const auto& entry : first) roots.push_back(entry.value);
   for (const auto& entry : second) roots.push_back(entry.value);
   Lowering lowering(graph, roots);
-  Scheduler scheduler(graph, lowering);
+  Schedule schedule(graph, lowering);
   Program program;
-  for (const auto value : values) scheduler.compute(value);
-  program.value_operations = static_cast<std::int32_t>(scheduler.rows().size());
-  for (const auto& entry : first) scheduler.compute(entry.value);
-  program.jacobian_operations = static_cast<std::int32_t>(scheduler.rows().size());
-  for (const auto& entry : second) scheduler.compute(entry.value);
+  for (const auto value : values) schedule.compute(value);
+  program.value_operations = static_cast<std::int32_t>(schedule.rows().size());
+  for (const auto& entry : first) schedule.compute(entry.value);
+  program.jacobian_operations = static_cast<std::int32_t>(schedule.rows().size());
+  for (const auto& entry : second) schedule.compute(entry.value);
 
   // Numbering: inputs, numbers, operations.
-  std::vector<Expr> used(scheduler.leaves());
-  used.insert(used.end(), inputs.begin(), inputs.end());
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  std::vector<Expr> used_inputs;
-  std::map<double, std::int32_t> numbers;
-  for (const auto e : used) {
-    if (const auto value = graph.constant(e))
-      numbers.emplace(*value, 0);
-    else
-      used_inputs.push_back(e);
+  std::vector<std::int32_t> index(2 * graph.size());
+  const auto leaves = leaves_in_order(graph, schedule.leaves(), inputs);
+  for (const auto leaf : leaves) {
+    const auto number = graph.constant(leaf);
+    if (!number) {
+      index[key(leaf)] = static_cast<std::int32_t>(program.inputs.size());
+      program.inputs.push_back(graph.input_of(leaf));
+      continue;
+    }
+    if (program.numbers.empty() || program.numbers.back() != *number) program.numbers.push_back(*number);
+    index[key(leaf)] = program.value_count() - 1;
   }
-  std::ranges::sort(used_inputs,
-                    [&](Expr x, Expr y) { return order_of(graph.input_of(x)) < order_of(graph.input_of(y)); });
-  std::vector<std::int32_t> index(graph.size());
-  for (const auto e : used_inputs) {
-    index[e.id] = static_cast<std::int32_t>(program.inputs.size());
-    program.inputs.push_back(graph.input_of(e));
+  for (const auto& [value, operation] : schedule.rows()) {
+    const int arity = info(operation.op).arity;
+    const auto operand = [&](int k) { return k < arity ? index[key(operation.operand[k])] : 0; };
+    index[key(value)] = program.value_count();
+    program.op.push_back(operation.op);
+    program.a.push_back(operand(0));
+    program.b.push_back(operand(1));
+    program.c.push_back(operand(2));
   }
-  for (auto& [value, at] : numbers) {
-    at = static_cast<std::int32_t>(program.inputs.size() + program.numbers.size());
-    program.numbers.push_back(value);
-  }
-  for (const auto e : used) {
-    if (const auto value = graph.constant(e)) index[e.id] = numbers.at(*value);
-  }
-  for (const auto& [e, row] : scheduler.rows()) {
-    const int arity = info(row.op).arity;
-    index[e.id] = program.value_count();
-    program.op.push_back(row.op);
-    program.a.push_back(index[row.operand[0].id]);
-    program.b.push_back(arity > 1 ? index[row.operand[1].id] : 0);
-    program.c.push_back(arity > 2 ? index[row.operand[2].id] : 0);
-  }
-  for (const auto value : values) program.values.push_back(index[value.id]);
+  const auto index_of = [&](Expr root) { return index[key(lowering.value(root))]; };
+  for (const auto value : values) program.values.push_back(index_of(value));
   for (const auto& entry : first) {
-    program.jacobian.push_back({entry.row, index[inputs[entry.column].id], index[entry.value.id]});
+    program.jacobian.push_back({entry.row, index_of(inputs[entry.column]), index_of(entry.value)});
   }
   for (const auto& entry : second) {
-    program.hessian.push_back({index[inputs[entry.row].id], index[inputs[entry.column].id], index[entry.value.id]});
+    program.hessian.push_back({index_of(inputs[entry.row]), index_of(inputs[entry.column]), index_of(entry.value)});
   }
   return program;
 }
@@ -205,8 +167,9 @@ Size size_of(const Graph& graph, std::span<const Expr> roots) {
     ++size.shared;
     const auto& n = graph.node({id});
     tree[id] = 1;
-    if (is_leaf(n)) continue;
-    for (int k = 0; k < info(n.op).arity; ++k) tree[id] += tree[operands(n)[k].id];
+    if (n.kind != Graph::Kind::operation) continue;
+    const Expr operands[] = {n.a, n.b, n.c};
+    for (int k = 0; k < info(n.op).arity; ++k) tree[id] += tree[operands[k].id];
   }
   for (const auto root : roots) size.tree += tree[root.id];
   return size;

@@ -13,7 +13,7 @@ enum class Derivatives { none, first, second };  // second: with the multiplier-
 
 // The program that computes `values` with the derivatives asked for, with respect to every unknown input that they
 // use.  Operations that values alone need come first, then what the Jacobian adds, then the Hessian.  A product that
-// is used once, in a sum, becomes multiply_add.
+// nothing but a sum needs becomes multiply_add.
 // `differentiating`, where given, gets the milliseconds spent on derivatives added.
 Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives, double* differentiating = nullptr);
 

@@ -100,6 +100,37 @@ Vector3 applied(Graph& graph, const Matrix3& matrix, const Matrix3& rotation, co
   return multiply(graph, matrix, multiply(graph, rotation, x));
 }
 
+// Moments of forces whose arms lie along one of a body's axes, gathered by the axis so that the cross product is made
+// once: e_k x (l0 f0 + l1 f1 + ...) = l0 e_k x (f0 + l1/l0 f1 + ...).
+class Levers {
+ public:
+  void add(Graph& graph, int axis, Expr length, const Vector3& force) {
+    auto& [unit, sum] = by_axis_[axis];
+    if (unit == Expr{} && graph.constant(length)) unit = length;
+    const bool in_units = unit != Expr{} && graph.constant(length);
+    auto& part = in_units ? sum : rest_[axis];
+    part = symbolic::add(graph, part, scale(graph, in_units ? graph.divide(length, unit) : length, force));
+  }
+  Vector3 moment(Graph& graph, const Matrix3& rotation) const {
+    Vector3 result;
+    for (int k = 0; k < 3; ++k) {
+      const auto along = column(rotation, k);
+      const auto& [unit, sum] = by_axis_[k];
+      result = symbolic::add(graph, result, scale(graph, unit, cross(graph, along, sum)));
+      result = symbolic::add(graph, result, cross(graph, along, rest_[k]));
+    }
+    return result;
+  }
+
+ private:
+  struct InUnits {
+    Expr unit;
+    Vector3 sum;
+  };
+  std::array<InUnits, 3> by_axis_;
+  std::array<Vector3, 3> rest_;  // of lengths that are no numbers
+};
+
 class Recursion {
  public:
   Recursion(Graph& graph, const Linkage& linkage)
@@ -221,11 +252,10 @@ std::vector<Expr> generalised_forces(Graph& graph, const Linkage& linkage) {
   const auto& bodies = recursion.bodies();
   const auto states = recursion.motion(linkage.gravity);
   std::vector<Vector3> force(bodies.size()), moment(bodies.size());
-  // arm x force, gathered by the axis of the body along which the arm lies, so that the cross product is made once.
-  std::vector<std::array<Vector3, 3>> lever(bodies.size());
+  std::vector<Levers> levers(bodies.size());
   const auto add_lever = [&](std::size_t b, const Vector3& arm, const Vector3& f) {
     if (const auto k = single_component(arm)) {
-      lever[b][*k] = add(graph, lever[b][*k], scale(graph, arm[*k], f));
+      levers[b].add(graph, *k, arm[*k], f);
     } else {
       moment[b] = add(graph, moment[b], cross(graph, recursion.turned(b, arm), f));
     }
@@ -261,7 +291,7 @@ std::vector<Expr> generalised_forces(Graph& graph, const Linkage& linkage) {
       spin[k] = graph.subtract(us[j][i], us[i][j]);
     }
     moment[b] = add(graph, moment[b], recursion.turned(b, spin));
-    for (int k = 0; k < 3; ++k) moment[b] = add(graph, moment[b], cross(graph, column(rotation, k), lever[b][k]));
+    moment[b] = add(graph, moment[b], levers[b].moment(graph, rotation));
 
     const auto u = recursion.joint_axis(b);
     result[b - 1] = body.turns ? dot(graph, moment[b], u) : dot(graph, force[b], u);

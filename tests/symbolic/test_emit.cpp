@@ -110,8 +110,10 @@ TEST_F(EmitTest, AProductUsedOnceByASumIsFused) {
   const auto fused = program({g.add(product, k)}, Derivatives::none);
   EXPECT_EQ(fused.op, (std::vector{Op::multiply_add}));
   const auto twice = program({g.add(product, k), g.add(product, x)}, Derivatives::none);
-  EXPECT_EQ(count(twice, Op::multiply), 1u);
-  EXPECT_EQ(count(twice, Op::multiply_add), 0u);
+  EXPECT_EQ(twice.op, (std::vector{Op::multiply_add, Op::multiply_add}));  // nobody needs the product by itself
+  const auto also = program({g.add(product, k), g.sine(product)}, Derivatives::none);
+  EXPECT_EQ(count(also, Op::multiply), 1u);
+  EXPECT_EQ(count(also, Op::multiply_add), 0u);
   const auto output = program({g.add(product, k), product}, Derivatives::none);
   EXPECT_EQ(count(output, Op::multiply), 1u);
   EXPECT_EQ(count(output, Op::multiply_add), 0u);
@@ -119,6 +121,23 @@ TEST_F(EmitTest, AProductUsedOnceByASumIsFused) {
   EXPECT_EQ(scaled.op, (std::vector{Op::multiply_add}));
   const double at[] = {3, 10};
   EXPECT_EQ(evaluate_once(scaled, Depth::values, at)[0], 4);
+}
+
+// Where several sums subtract products of one factor, it is negated once.
+TEST_F(EmitTest, SignsAreKeptWhereTheyCostLeast) {
+  std::vector<Expr> values;
+  const Expr s = g.sine(x);
+  for (const auto* name : {"a", "b", "c", "d"}) {
+    const Expr other = input(InputKind::constant, name);
+    values.push_back(g.subtract(other, g.multiply(s, g.add(other, y))));
+  }
+  const auto p = program(values, Derivatives::none);
+  EXPECT_EQ(count(p, Op::multiply_add), 4u);
+  EXPECT_LE(p.op.size(), 10u);
+  EXPECT_EQ(program({g.negate(g.subtract(x, y))}, Derivatives::none).op, (std::vector{Op::subtract}));
+  EXPECT_EQ(program({g.negate(g.operation(Op::exponential, g.negate(x)))}, Derivatives::none).op,
+            (std::vector{Op::negate, Op::exponential, Op::negate}));
+  EXPECT_EQ(program({g.negate(x), x}, Derivatives::none).op, (std::vector{Op::negate}));
 }
 
 TEST_F(EmitTest, AProductOfTheDerivativesIsNotTakenFromTheValues) {
