@@ -45,6 +45,20 @@ struct Samples {
   bool operator==(const Samples&) const = default;
 };
 
+// One accepted step; the first record, of iteration 0, is the start.
+struct IterationRecord {
+  int iteration = 0;  // summed over all actions
+  double objective = 0;
+  double violation = 0;     // largest, in its own units
+  double stationarity = 0;  // of the Lagrangian, relative
+  double step = 0;          // largest change of a coefficient
+  double shift = 0;         // inertia correction
+  double seconds = 0;       // since the problem was loaded
+  bool operator==(const IterationRecord&) const = default;
+};
+
+// Where the status is `failed`, measures may be no numbers: the objective, its terms, violations, samples, and a
+// record's objective, violation and stationarity.  All else is finite always.
 struct Motion {
   double start = 0, end = 1;
   Status status = Status::stopped;
@@ -57,7 +71,9 @@ struct Motion {
   std::vector<Violation> violations;  // hard constraints, in the scene's order
   std::vector<Trajectory> dofs;
   std::vector<std::pair<std::string, double>> constants;
+  std::vector<std::pair<std::string, double>> parameters;
   std::optional<Samples> samples;
+  std::vector<IterationRecord> record;  // on request: all iterations
   bool operator==(const Motion&) const = default;
 };
 

@@ -25,7 +25,8 @@ struct Fault {
 std::optional<Fault> validate(const Problem& problem);
 
 // Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,
-// every number is finite, names are unique, and samples are as long as their times.
+// every number is finite (but for measures of a failed motion), names are unique, and samples are as long as their
+// times.
 std::optional<Fault> validate(const Motion& motion);
 
 // A clamped cubic basis over [start, end]; `path` is the basis's own.

@@ -18,6 +18,12 @@ std::optional<Fault> finite(double number, std::string path) {
   return Fault{std::move(path), "must be finite"};
 }
 
+// What was measured along the motion; where that failed there may be no number.
+std::optional<Fault> measured(double measure, bool failed, std::string path) {
+  if (failed || std::isfinite(measure)) return std::nullopt;
+  return Fault{std::move(path), "must be a finite number: only a motion whose status is \"failed\" may lack it"};
+}
+
 std::optional<Fault> all_finite(const std::vector<double>& numbers, std::string_view path) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (auto fault = finite(numbers[i], below(path, i))) return fault;
@@ -25,18 +31,20 @@ std::optional<Fault> all_finite(const std::vector<double>& numbers, std::string_
   return std::nullopt;
 }
 
-std::optional<Fault> validate_named(const std::vector<std::pair<std::string, double>>& numbers, std::string_view path) {
+std::optional<Fault> validate_named(const std::vector<std::pair<std::string, double>>& numbers, std::string_view path,
+                                    auto check) {
   std::unordered_set<std::string_view> names;
   for (const auto& [name, number] : numbers) {
     const auto own = below(path, name);
     if (auto fault = validate_name(name, own)) return fault;
     if (!names.insert(name).second) return Fault{own, "the name is there twice"};
-    if (auto fault = finite(number, own)) return fault;
+    if (auto fault = check(number, own)) return fault;
   }
   return std::nullopt;
 }
 
-std::optional<Fault> validate_table(const Rows& rows, std::size_t times, std::size_t columns, std::string_view path) {
+std::optional<Fault> validate_table(const Rows& rows, std::size_t times, std::size_t columns, bool failed,
+                                    std::string_view path) {
   if (rows.size() != times) {
     return Fault{std::string(path), std::to_string(rows.size()) + " rows, but " + std::to_string(times) + " times"};
   }
@@ -45,24 +53,25 @@ std::optional<Fault> validate_table(const Rows& rows, std::size_t times, std::si
     if (rows[i].size() != columns) {
       return Fault{own, std::to_string(rows[i].size()) + " columns, expected " + std::to_string(columns)};
     }
-    if (auto fault = all_finite(rows[i], own)) return fault;
+    for (std::size_t k = 0; k < columns; ++k) {
+      if (auto fault = measured(rows[i][k], failed, below(own, k))) return fault;
+    }
   }
   return std::nullopt;
 }
 
-std::optional<Fault> validate(const Samples& samples) {
+std::optional<Fault> validate(const Samples& samples, bool failed) {
   if (auto fault = all_finite(samples.times, "/samples/times")) return fault;
   for (const auto& [name, rows] : samples.values) {
     const auto path = below("/samples/values", name);
     if (auto fault = validate_name(name, path)) return fault;
-    if (auto fault = validate_table(rows, samples.times.size(), rows.empty() ? 0 : rows.front().size(), path)) {
-      return fault;
-    }
+    const auto columns = rows.empty() ? 0 : rows.front().size();
+    if (auto fault = validate_table(rows, samples.times.size(), columns, failed, path)) return fault;
   }
   for (const auto& [name, rows] : samples.poses) {
     const auto path = below("/samples/poses", name);
     if (auto fault = validate_name(name, path)) return fault;
-    if (auto fault = validate_table(rows, samples.times.size(), pose_columns, path)) return fault;
+    if (auto fault = validate_table(rows, samples.times.size(), pose_columns, failed, path)) return fault;
   }
   return std::nullopt;
 }
@@ -85,14 +94,29 @@ std::optional<Fault> validate_dofs(const Motion& motion) {
   return std::nullopt;
 }
 
-std::optional<Fault> validate_violations(const Motion& motion) {
+std::optional<Fault> validate_violations(const Motion& motion, bool failed) {
   for (std::size_t i = 0; i < motion.violations.size(); ++i) {
     const auto& violation = motion.violations[i];
     const auto path = below("/violation/constraints", i);
     if (auto fault = validate_name(violation.name, path + "/name")) return fault;
-    if (auto fault = finite(violation.max, path + "/max")) return fault;
+    if (auto fault = measured(violation.max, failed, path + "/max")) return fault;
     if (auto fault = finite(violation.time.value_or(0), path + "/time")) return fault;
     if (violation.line < 0) return Fault{path + "/line", "must not be negative"};
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_record(const Motion& motion, bool failed) {
+  for (std::size_t i = 0; i < motion.record.size(); ++i) {
+    const auto& record = motion.record[i];
+    const auto path = below("/record", i);
+    if (record.iteration < 0) return Fault{path + "/iteration", "must not be negative"};
+    if (auto fault = measured(record.objective, failed, path + "/objective")) return fault;
+    if (auto fault = measured(record.violation, failed, path + "/violation")) return fault;
+    if (auto fault = measured(record.stationarity, failed, path + "/stationarity")) return fault;
+    if (auto fault = finite(record.step, path + "/step")) return fault;
+    if (auto fault = finite(record.shift, path + "/shift")) return fault;
+    if (auto fault = finite(record.seconds, path + "/seconds")) return fault;
   }
   return std::nullopt;
 }
@@ -100,6 +124,8 @@ std::optional<Fault> validate_violations(const Motion& motion) {
 }  // namespace
 
 std::optional<Fault> validate(const Motion& motion) {
+  const bool failed = motion.status == Status::failed;
+  const auto term = [&](double value, const std::string& path) { return measured(value, failed, path); };
   if (auto fault = finite(motion.start, "/time/0")) return fault;
   if (auto fault = finite(motion.end, "/time/1")) return fault;
   if (!(motion.start < motion.end)) return Fault{"/time", "the time must rise"};
@@ -107,13 +133,17 @@ std::optional<Fault> validate(const Motion& motion) {
   if (auto fault = finite(motion.seconds.total, "/seconds/total")) return fault;
   if (auto fault = finite(motion.seconds.evaluate, "/seconds/evaluate")) return fault;
   if (auto fault = finite(motion.seconds.factor, "/seconds/factor")) return fault;
-  if (auto fault = finite(motion.objective, "/objective/total")) return fault;
-  if (auto fault = validate_named(motion.terms, "/objective/terms")) return fault;
-  if (auto fault = finite(motion.violation, "/violation/max")) return fault;
-  if (auto fault = validate_violations(motion)) return fault;
+  if (auto fault = measured(motion.objective, failed, "/objective/total")) return fault;
+  if (auto fault = validate_named(motion.terms, "/objective/terms", term)) return fault;
+  if (auto fault = measured(motion.violation, failed, "/violation/max")) return fault;
+  if (auto fault = validate_violations(motion, failed)) return fault;
   if (auto fault = validate_dofs(motion)) return fault;
-  if (auto fault = validate_named(motion.constants, "/constants")) return fault;
-  return motion.samples ? validate(*motion.samples) : std::nullopt;
+  if (auto fault = validate_named(motion.constants, "/constants", finite)) return fault;
+  if (auto fault = validate_named(motion.parameters, "/parameters", finite)) return fault;
+  if (motion.samples) {
+    if (auto fault = validate(*motion.samples, failed)) return fault;
+  }
+  return validate_record(motion, failed);
 }
 
 }  // namespace spacetime

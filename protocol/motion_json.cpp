@@ -1,6 +1,8 @@
 #include "protocol/motion_json.h"
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "protocol/check.h"
 #include "protocol/program_json.h"
@@ -13,6 +15,28 @@ constexpr std::array statuses{Status::converged, Status::stopped, Status::infeas
 using Named = std::vector<std::pair<std::string, double>>;
 using Rows = std::vector<std::vector<double>>;
 
+// What was measured along the motion: a number, or null where the motion failed and there is none.
+struct Measures {
+  Writer& to;
+  bool failed;
+
+  void value(double measure) const {
+    if (failed && !std::isfinite(measure)) {
+      to.null();
+    } else {
+      to.number(measure);
+    }
+  }
+  void member(std::string_view name, double measure) const {
+    to.key(name);
+    value(measure);
+  }
+};
+
+double measure_from(const Node& node) {
+  return node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.number();
+}
+
 void member(Writer& to, std::string_view name, const Named& numbers) {
   to.key(name);
   to.object([&] {
@@ -20,19 +44,25 @@ void member(Writer& to, std::string_view name, const Named& numbers) {
   });
 }
 
-Named named_numbers(const Node& node) {
+Named named(const Node& node, double (*value)(const Node&)) {
   Named result;
-  node.members([&](const std::string& name, const Node& number) { result.emplace_back(name, number.number()); });
+  node.members([&](const std::string& name, const Node& number) { result.emplace_back(name, value(number)); });
   return result;
 }
+Named named_numbers(const Node& node) {
+  return named(node, [](const Node& number) { return number.number(); });
+}
 
-void member(Writer& to, std::string_view name, const std::map<std::string, Rows>& tables) {
+void member(const Measures& measures, std::string_view name, const std::map<std::string, Rows>& tables) {
+  auto& to = measures.to;
   to.key(name);
   to.object(
       [&] {
         for (const auto& [key, rows] : tables) {
           to.key(key);
-          to.list_of(rows, [&](const std::vector<double>& row) { to.numbers(row); });
+          to.list_of(rows, [&](const std::vector<double>& row) {
+            to.list_of(row, [&](double value) { measures.value(value); });
+          });
         }
       },
       Set::in_lines);
@@ -41,15 +71,16 @@ void member(Writer& to, std::string_view name, const std::map<std::string, Rows>
 std::map<std::string, Rows> tables_from(const Node& node) {
   std::map<std::string, Rows> result;
   node.members([&](const std::string& name, const Node& rows) {
-    result.emplace(name, rows.each([](const Node& row) { return row.numbers(); }));
+    result.emplace(name, rows.each([](const Node& row) { return row.each(measure_from); }));
   });
   return result;
 }
 
-void write(Writer& to, const Violation& violation) {
+void write(const Measures& measures, const Violation& violation) {
+  auto& to = measures.to;
   to.object([&] {
     to.member("name", violation.name);
-    to.member("max", violation.max);
+    measures.member("max", violation.max);
     to.key("time");
     if (violation.time) {
       to.number(*violation.time);
@@ -62,7 +93,7 @@ void write(Writer& to, const Violation& violation) {
 
 Violation violation_from(const Node& node) {
   node.object({"name", "max", "time", "line"});
-  Violation violation{node["name"].string(), node["max"].number(), {}, node["line"].integer()};
+  Violation violation{node["name"].string(), measure_from(node["max"]), {}, node["line"].integer()};
   const auto time = node["time"];
   if (!time.is_null()) violation.time = time.number();
   return violation;
@@ -83,13 +114,14 @@ Trajectory dof_from(const Node& node) {
   return {node["name"].string(), basis_from(node["basis"]), node["coefficients"].numbers()};
 }
 
-void write(Writer& to, const Samples& samples) {
+void write(const Measures& measures, const Samples& samples) {
+  auto& to = measures.to;
   to.object(
       [&] {
         to.key("times");
         to.numbers(samples.times);
-        member(to, "values", samples.values);
-        member(to, "poses", samples.poses);
+        member(measures, "values", samples.values);
+        member(measures, "poses", samples.poses);
       },
       Set::in_lines);
 }
@@ -97,6 +129,30 @@ void write(Writer& to, const Samples& samples) {
 Samples samples_from(const Node& node) {
   node.object({"times", "values", "poses"});
   return {node["times"].numbers(), tables_from(node["values"]), tables_from(node["poses"])};
+}
+
+void write(const Measures& measures, const IterationRecord& record) {
+  auto& to = measures.to;
+  to.object([&] {
+    to.member("iteration", record.iteration);
+    measures.member("objective", record.objective);
+    measures.member("violation", record.violation);
+    measures.member("stationarity", record.stationarity);
+    to.member("step", record.step);
+    to.member("shift", record.shift);
+    to.member("seconds", record.seconds);
+  });
+}
+
+IterationRecord record_from(const Node& node) {
+  node.object({"iteration", "objective", "violation", "stationarity", "step", "shift", "seconds"});
+  return {.iteration = node["iteration"].integer(),
+          .objective = measure_from(node["objective"]),
+          .violation = measure_from(node["violation"]),
+          .stationarity = measure_from(node["stationarity"]),
+          .step = node["step"].number(),
+          .shift = node["shift"].number(),
+          .seconds = node["seconds"].number()};
 }
 
 Status status_from(const Node& node) {
@@ -108,6 +164,7 @@ Status status_from(const Node& node) {
 }  // namespace
 
 void write(Writer& to, const Motion& motion) {
+  const Measures measures{to, motion.status == Status::failed};
   to.object(
       [&] {
         to.member("format", motion_format);
@@ -124,25 +181,32 @@ void write(Writer& to, const Motion& motion) {
         });
         to.key("objective");
         to.object([&] {
-          to.member("total", motion.objective);
-          member(to, "terms", motion.terms);
+          measures.member("total", motion.objective);
+          to.key("terms");
+          to.object([&] {
+            for (const auto& [name, value] : motion.terms) measures.member(name, value);
+          });
         });
         to.key("violation");
         to.object([&] {
-          to.member("max", motion.violation);
+          measures.member("max", motion.violation);
           to.key("constraints");
           to.list_of(
-              motion.violations, [&](const Violation& violation) { write(to, violation); }, Set::in_lines);
+              motion.violations, [&](const Violation& violation) { write(measures, violation); }, Set::in_lines);
         });
         to.key("dofs");
         to.list_of(
             motion.dofs, [&](const Trajectory& dof) { write(to, dof); }, Set::in_lines);
         member(to, "constants", motion.constants);
-        to.key("parameters");
-        to.object([] {});
+        member(to, "parameters", motion.parameters);
         if (motion.samples) {
           to.key("samples");
-          write(to, *motion.samples);
+          write(measures, *motion.samples);
+        }
+        if (!motion.record.empty()) {
+          to.key("record");
+          to.list_of(
+              motion.record, [&](const IterationRecord& record) { write(measures, record); }, Set::in_lines);
         }
       },
       Set::in_lines);
@@ -159,7 +223,7 @@ Motion motion_from(const Node& node) {
   node["format"].choice(formats);
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
-              {"samples"});
+              {"samples", "record"});
   Motion motion;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
@@ -173,16 +237,17 @@ Motion motion_from(const Node& node) {
   motion.seconds = {seconds["total"].number(), seconds["evaluate"].number(), seconds["factor"].number()};
   const auto objective = node["objective"];
   objective.object({"total", "terms"});
-  motion.objective = objective["total"].number();
-  motion.terms = named_numbers(objective["terms"]);
+  motion.objective = measure_from(objective["total"]);
+  motion.terms = named(objective["terms"], measure_from);
   const auto violation = node["violation"];
   violation.object({"max", "constraints"});
-  motion.violation = violation["max"].number();
+  motion.violation = measure_from(violation["max"]);
   motion.violations = violation["constraints"].each(violation_from);
   motion.dofs = node["dofs"].each(dof_from);
   motion.constants = named_numbers(node["constants"]);
-  node["parameters"].object({});
+  motion.parameters = named_numbers(node["parameters"]);
   if (const auto samples = node.find("samples")) motion.samples = samples_from(*samples);
+  if (const auto record = node.find("record")) motion.record = record->each(record_from);
   return motion;
 }
 

@@ -13,8 +13,8 @@ namespace spacetime {
 inline constexpr std::string_view motion_format = "spacetime-motion/1";
 inline constexpr std::string_view motion_document = "motion document";  // in sentences
 
-// The document as text: one degree of freedom a line.  Throws InputError for what no document can hold (a number that
-// is not finite, text that is not UTF-8).
+// The document as text: one degree of freedom a line.  Measures of a failed motion that are not finite become null.
+// Throws InputError for what no document can hold (any other number that is not finite, text that is not UTF-8).
 std::string write(const Motion& motion);
 void write(Writer& to, const Motion& motion);
 

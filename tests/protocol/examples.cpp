@@ -189,6 +189,8 @@ Motion rich_motion() {
   motion.dofs = {{"arm.shoulder", {{0, 0, 0, 0, 0.5, 2, 2, 2, 2}}, {0, 0.1, -0.25, 1e-17, 3}},
                  {"ball.X", {{0, 0, 0, 0, 2, 2, 2, 2}}, {1, 2, 3, 4}}};
   motion.constants = {{"release", 1}, {"g", 9.81}};
+  motion.parameters = {{"speed", 2.5}, {"aim", -0.125}};
+  motion.record = {{0, 7.5, 0.25, 1, 0, 0, 0.03125}, {1, 5.596, 3e-12, 4e-9, 0.5, 1e-3, 0.25}};
   motion.samples = Samples{{0, 1, 2},
                            {{"hand", {{1, 2}, {3, 4}, {5, 6}}}, {"swing", {{0}, {0.5}, {1}}}},
                            {{"upper", std::vector<std::vector<double>>(3, std::vector<double>(12, 0.5))}}};
@@ -404,6 +406,10 @@ Motion random_motion(std::uint32_t seed) {
     motion.dofs.push_back(std::move(dof));
   }
   for (std::size_t i = 0; i < random() % 9; ++i) motion.constants.emplace_back(random_name(random, "c", i), value());
+  for (std::size_t i = 0; i < random() % 3; ++i) motion.parameters.emplace_back(random_name(random, "p", i), value());
+  for (int i = below(random, 4); i > 0; --i) {
+    motion.record.push_back({below(random, 1000), value(), value(), value(), value(), value(), value()});
+  }
   if (!coin(random)) return motion;
   Samples samples;
   for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());

@@ -138,11 +138,15 @@ TEST(Schemas, AgreeWithTheReaderOfProblems) {
 }
 
 TEST(Schemas, AgreeWithTheReaderOfMotions) {
-  const auto counts = compare(Schema("motion.schema.json"), json::parse(write(examples::rich_motion())), reads_motion,
-                              has_form_of_motion);
-  EXPECT_GT(counts.both, 400);
-  EXPECT_GT(counts.neither, 50);
-  EXPECT_GT(counts.meaning, 20);
+  auto motion = examples::rich_motion();
+  for (const auto status : {Status::converged, Status::failed}) {
+    motion.status = status;
+    const auto counts =
+        compare(Schema("motion.schema.json"), json::parse(write(motion)), reads_motion, has_form_of_motion);
+    EXPECT_GT(counts.both, 500);
+    EXPECT_GT(counts.neither, 100);
+    EXPECT_GT(counts.meaning, 20);
+  }
 }
 
 TEST(Schemas, KnowTheOperationsAndTheLimits) {
