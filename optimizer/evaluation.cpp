@@ -8,6 +8,11 @@
 namespace spacetime::optimizer {
 namespace {
 
+// The residual of an inequality that does not count at present: well satisfied.
+constexpr double content = -1;
+
+bool counts(std::span<const char> active, int row) { return active.empty() || active[row]; }
+
 // A batch that has been run: one row of `stride` numbers an output.
 struct Outputs {
   const double* data;
@@ -75,7 +80,9 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
           w.uniform[i] = 0;
           for (int s = 0; s < samples; ++s) {
             const int row = batch.first_row + s * outputs + input.index;
-            to[s] = t.rows[row].kind == Row::Kind::soft ? t.rows[row].weight * values->residual[row] : multipliers[row];
+            to[s] = t.rows[row].kind == Row::Kind::soft
+                        ? t.rows[row].weight * excess(t.rows[row], values->residual[row])
+                        : multipliers[row];
           }
         }
         break;
@@ -149,8 +156,8 @@ void add_hessian(const Transcription& t, const Layout& layout, const Batch& batc
       }
     }
   }
-  for (const FunctionalHessian& pattern : batch.functional_hessian) {
-    const int z = layout.of_unknown[t.first_functional() + pattern.functional];
+  for (const BorderHessian& pattern : batch.border_hessian) {
+    const int z = layout.of_unknown[t.first_functional() + pattern.unknown];
     for (int s = 0; s < batch.samples(); ++s) {
       const double h = out(base + pattern.entry, s) * (scale ? scale[s] : 1.0);
       if (pattern.other >= 0) {
@@ -187,18 +194,19 @@ void for_each_derivative(const Transcription& t, const Layout& layout, const Bat
       }
     }
   }
-  for (const FunctionalJacobian& pattern : batch.functional_jacobian) {
-    const int position = layout.of_unknown[t.first_functional() + pattern.functional];
+  for (const BorderJacobian& pattern : batch.border_jacobian) {
+    const int position = layout.of_unknown[t.first_functional() + pattern.unknown];
     for (int s = 0; s < batch.samples(); ++s) visit(s, pattern.output, position, out(base + pattern.entry, s));
   }
 }
 
 void add_first_derivatives(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
-                           Linearisation& result) {
+                           std::span<const char> active, Linearisation& result) {
   const int outputs = batch.outputs();
   for_each_derivative(t, layout, batch, out, [&](int s, int output, int position, double value) {
     if (!batch.summed()) {
-      result.jacobian.add(layout.of_row[batch.first_row + s * outputs + output], position, value);
+      const int row = batch.first_row + s * outputs + output;
+      if (counts(active, row)) result.jacobian.add(layout.of_row[row], position, value);
       return;
     }
     const Target& target = batch.targets[output];
@@ -218,7 +226,7 @@ bool needs_multipliers(const Batch& batch) {
 
 }  // namespace
 
-Values evaluate(const Transcription& t, std::span<const double> x, Workspace& workspace) {
+Values evaluate(const Transcription& t, std::span<const double> x, Workspace& workspace, std::span<const char> active) {
   Values values;
   values.terms.assign(t.problem->objective.size(), 0.0);
   values.residual.assign(t.rows.size(), 0.0);
@@ -228,7 +236,10 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
     const int outputs = batch.outputs();
     for (int o = 0; o < outputs; ++o) {
       if (!batch.summed()) {
-        for (int s = 0; s < batch.samples(); ++s) values.residual[batch.first_row + s * outputs + o] = out(o, s);
+        for (int s = 0; s < batch.samples(); ++s) {
+          const int row = batch.first_row + s * outputs + o;
+          values.residual[row] = counts(active, row) ? out(o, s) : t.rows[row].at_most ? content : 0;
+        }
         continue;
       }
       double sum = 0;
@@ -240,8 +251,8 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
   }
   for (const double term : values.terms) values.objective += term;
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
-    const double c = values.residual[r];
-    values.finite &= std::isfinite(c);
+    const double c = excess(t.rows[r], values.residual[r]);
+    values.finite &= std::isfinite(values.residual[r]);
     if (t.rows[r].kind == Row::Kind::soft) values.objective += t.rows[r].weight / 2 * c * c;
   }
   values.finite &= std::isfinite(values.objective);
@@ -254,7 +265,7 @@ Linearisation start_linearisation(const Layout& layout) {
 }
 
 void linearise(const Transcription& t, const Layout& layout, std::span<const double> x, Workspace& workspace,
-               Linearisation& result) {
+               Linearisation& result, std::span<const char> active) {
   result.gradient.setZero();
   result.jacobian.set_zero();
   result.hessian.set_zero();
@@ -264,7 +275,7 @@ void linearise(const Transcription& t, const Layout& layout, std::span<const dou
   for (const Batch& batch : t.batches) {
     const bool waits = needs_multipliers(batch);
     const Outputs out = run(t, batch, waits ? Depth::jacobian : Depth::hessian, x, nullptr, {}, workspace);
-    add_first_derivatives(t, layout, batch, out, result);
+    add_first_derivatives(t, layout, batch, out, active, result);
     if (!waits) add_hessian(t, layout, batch, out, result.hessian);
   }
 }
@@ -275,6 +286,18 @@ void add_row_curvature(const Transcription& t, const Layout& layout, std::span<c
     if (!needs_multipliers(batch) || batch.program->hessian.empty()) continue;
     add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &values, multipliers, workspace), result.hessian);
   }
+}
+
+std::vector<char> active_rows(const Transcription& t, std::span<const double> x, Workspace& workspace) {
+  std::vector<char> active(t.rows.size(), 1);
+  for (const Conditional& conditional : t.conditionals) {
+    const Outputs out = run(t, conditional.condition, Depth::values, x, nullptr, {}, workspace);
+    for (int s = 0; s < conditional.condition.samples(); ++s) {
+      const auto first = active.begin() + conditional.first_row + s * conditional.rows;
+      std::fill(first, first + conditional.rows, static_cast<char>(out(conditional.output, s) != 0));
+    }
+  }
+  return active;
 }
 
 void settle_functionals(const Transcription& t, std::vector<double>& x, Workspace& workspace) {

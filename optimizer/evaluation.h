@@ -32,14 +32,22 @@ struct Workspace {
   std::vector<std::uint8_t> uniform;
 };
 
-Values evaluate(const Transcription& transcription, std::span<const double> x, Workspace& workspace);
+// How much a residual violates its relation.
+inline double excess(const Row& row, double residual) { return row.at_most && residual < 0 ? 0 : residual; }
+
+// Which rows count at x: all but those whose condition fails there.
+std::vector<char> active_rows(const Transcription& transcription, std::span<const double> x, Workspace& workspace);
+
+// Rows that are not active are met; all are where `active` is empty.
+Values evaluate(const Transcription& transcription, std::span<const double> x, Workspace& workspace,
+                std::span<const char> active = {});
 
 // `result` must have been made for this layout.
 Linearisation start_linearisation(const Layout& layout);
 
 // Gradient, Jacobian, and the objective's part of the Hessian.
 void linearise(const Transcription& transcription, const Layout& layout, std::span<const double> x,
-               Workspace& workspace, Linearisation& result);
+               Workspace& workspace, Linearisation& result, std::span<const char> active = {});
 
 // Adds the rows' part of the Hessian.  `values` must be those at x; `multipliers` has one number a row (those of soft
 // rows are not read: they are w r).

@@ -31,13 +31,10 @@ constexpr int max_attempts = 4;
 }  // namespace
 
 Kkt::Kkt(const Transcription& t, const Layout& layout)
-    : role_(layout.size(), Role::unknown),
-      compliance_(Eigen::VectorXd::Zero(layout.size())),
-      rows_(static_cast<int>(t.rows.size())) {
+    : role_(layout.size(), Role::unknown), rows_(static_cast<int>(t.rows.size())) {
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
-    const bool soft = t.rows[r].kind == Row::Kind::soft;
-    role_[layout.of_row[r]] = soft ? Role::soft : Role::hard;
-    if (soft) compliance_[layout.of_row[r]] = 1 / t.rows[r].weight;
+    const bool compliant = t.rows[r].kind == Row::Kind::soft || t.rows[r].at_most;
+    role_[layout.of_row[r]] = compliant ? Role::compliant : Role::equation;
   }
 }
 
@@ -67,7 +64,7 @@ Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::Vect
 }
 
 // The matrix without shift and regularisation, and what regularisation is to be.
-void Kkt::assemble(const Linearisation& linear) {
+void Kkt::assemble(const Linearisation& linear, const Eigen::VectorXd& diagonal) {
   exact_ = linear.hessian;
   for (std::size_t k = 0; k < exact_.band.size(); ++k) exact_.band[k] += linear.jacobian.band[k];
   exact_.border += linear.jacobian.border;
@@ -81,15 +78,15 @@ void Kkt::assemble(const Linearisation& linear) {
   const int unknowns = exact_.size() - rows_;
   const double mean = sum > 0 ? sum / unknowns : 1;
   scale_ = shift_unit * mean;
-  curvature = curvature.cwiseMax(1e-6 * mean);
+  for (int k = 0; k < exact_.size(); ++k) {
+    if (role_[k] == Role::unknown) curvature[k] = std::max(curvature[k] + diagonal[k], 1e-6 * mean);
+    exact_.add(k, k, diagonal[k]);
+  }
 
   vanishing_ = -row_regularisation * row_sizes(linear.jacobian, curvature);
   for (int k = 0; k < exact_.size(); ++k) {
     if (role_[k] == Role::unknown) vanishing_[k] = unknown_regularisation * mean;
-    if (role_[k] == Role::soft) {
-      exact_.add(k, k, -compliance_[k]);
-      vanishing_[k] = 0;
-    }
+    if (role_[k] == Role::compliant) vanishing_[k] = 0;
   }
 }
 
@@ -101,8 +98,7 @@ bool Kkt::regularise_and_factor(double shift) {
   return factorisation_.compute(regular_);
 }
 
-std::optional<double> Kkt::factor(const Linearisation& linear, double hint, double at_least) {
-  assemble(linear);
+std::optional<double> Kkt::factor(double hint, double at_least) {
   double shift = at_least;
   const double from = std::max(hint > 0 ? std::max(hint / growth, least_shift) : first_shift, 2 * at_least);
   for (double next = from;; next *= hint > 0 ? growth : first_growth) {
@@ -110,17 +106,16 @@ std::optional<double> Kkt::factor(const Linearisation& linear, double hint, doub
     if (next > most_shift) return std::nullopt;
     shift = next;
   }
-  // The shift is meant: refinement must not take it back.
-  for (int k = 0; k < exact_.size(); ++k) {
-    if (role_[k] == Role::unknown) exact_.add(k, k, shift * scale_);
-  }
+  shift_ = shift;
   return shift;
 }
 
-std::optional<Kkt::Step> Kkt::step(const Linearisation& linear, const Eigen::VectorXd& right, double hint) {
+std::optional<Kkt::Step> Kkt::step(const Linearisation& linear, const Eigen::VectorXd& diagonal,
+                                   const Eigen::VectorXd& right, double hint) {
+  assemble(linear, diagonal);
   double at_least = 0;
   for (int attempt = 0; attempt < max_attempts; ++attempt) {
-    const auto shift = factor(linear, hint, at_least);
+    const auto shift = factor(hint, at_least);
     if (!shift) return std::nullopt;
     if (auto solution = solve(right)) return Step{std::move(*solution), *shift};
     at_least = std::max(first_growth * *shift, hint > 0 ? std::max(hint / growth, least_shift) : least_shift);
@@ -134,16 +129,16 @@ std::optional<Kkt::Step> Kkt::step(const Linearisation& linear, const Eigen::Vec
 std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisation& linear,
                                                               const Eigen::VectorXd& gradient) {
   // [ I  A^T ] [ y      ]     [ gradient ]
-  // [ A  0   ] [ lambda ] = - [ 0        ],   soft rows left out
+  // [ A  0   ] [ lambda ] = - [ 0        ],   soft rows and limits left out
   exact_ = linear.jacobian;
   for (int j = 0; j < exact_.n; ++j) {
     for (int i = j + 1; i <= j + exact_.width && i < exact_.n; ++i) {
-      if (role_[i] == Role::soft || role_[j] == Role::soft) exact_.at(i, j) = 0;
+      if (role_[i] == Role::compliant || role_[j] == Role::compliant) exact_.at(i, j) = 0;
     }
-    if (role_[j] == Role::soft && exact_.m > 0) exact_.border.col(j).setZero();
+    if (role_[j] == Role::compliant && exact_.m > 0) exact_.border.col(j).setZero();
   }
   for (int i = 0; i < exact_.m; ++i) {
-    if (role_[exact_.n + i] != Role::soft) continue;
+    if (role_[exact_.n + i] != Role::compliant) continue;
     exact_.border.row(i).setZero();
     exact_.border.col(exact_.n + i).setZero();
   }
@@ -151,23 +146,25 @@ std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisatio
   Eigen::VectorXd right = -gradient;
   for (int k = 0; k < exact_.size(); ++k) {
     if (role_[k] != Role::unknown) right[k] = 0;
-    if (role_[k] != Role::hard) {
+    if (role_[k] != Role::equation) {
       exact_.add(k, k, 1);
       vanishing_[k] = 0;
     }
   }
+  shift_ = 0;
   if (!regularise_and_factor(0)) return std::nullopt;
   return solve(right);
 }
 
-bool Kkt::factor_feasibility(const Linearisation& linear, double damping) {
+bool Kkt::factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, double damping) {
   exact_ = linear.jacobian;
   const Eigen::VectorXd sizes = row_sizes(exact_, Eigen::VectorXd::Ones(exact_.size()));
   for (int k = 0; k < exact_.size(); ++k) {
-    // A soft row takes no part: so compliant that it asks nothing.
-    exact_.add(k, k, role_[k] == Role::unknown ? 1 : role_[k] == Role::hard ? -damping * sizes[k] : -1e30);
+    // A row that is not wanted takes no part: so compliant that it asks nothing.
+    exact_.add(k, k, role_[k] == Role::unknown ? 1 : wanted[k] != 0 ? -damping * sizes[k] : -1e30);
   }
   vanishing_ = Eigen::VectorXd::Zero(exact_.size());
+  shift_ = 0;
   return regularise_and_factor(0);
 }
 
@@ -181,12 +178,20 @@ std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) const {
     return largest;
   };
   const double unit = right.cwiseAbs().maxCoeff();
+  // The shift is meant: refinement must not take it back.
+  const auto product = [&](const Eigen::VectorXd& v) {
+    Eigen::VectorXd result = multiply(exact_, v);
+    for (int k = 0; shift_ > 0 && k < v.size(); ++k) {
+      if (role_[k] == Role::unknown) result[k] += shift_ * scale_ * v[k];
+    }
+    return result;
+  };
   Eigen::VectorXd x = factorisation_.solve(right);
-  Eigen::VectorXd residual = right - multiply(exact_, x);
+  Eigen::VectorXd residual = right - product(x);
   double all = residual.cwiseAbs().maxCoeff();
   for (int k = 0; k < max_refinements && all > small_residual * unit; ++k) {
     const Eigen::VectorXd better = x + factorisation_.solve(residual);
-    const Eigen::VectorXd remaining = right - multiply(exact_, better);
+    const Eigen::VectorXd remaining = right - product(better);
     const double now = remaining.cwiseAbs().maxCoeff();
     if (!(now < all)) break;
     const bool slow = now > all / 2;

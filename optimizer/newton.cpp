@@ -7,63 +7,56 @@
 namespace spacetime::optimizer {
 namespace {
 
-// The radius: where the model does not hold, no coefficient changes by more in one step.  Without it solutions hop
-// between the many minima of a throw.  In the units of the degrees of freedom; it grows while steps go well, so other
-// units cost a few iterations, not the solution.
-constexpr double first_radius = 0.6;
-constexpr double radius_growth = 2;
-
-// The model holds for a step where the change of the Lagrangian is predicted to this fraction, and what remains of
-// the violation is below this fraction of it.
-constexpr double model_error = 0.1, violation_error = 0.1;
-constexpr double good_model_error = 0.25;
-
-// Line search: halvings of the step, sufficient decrease, and the switching condition of the filter method
-// [Waechter and Biegler 2006, eq. 19 and 20].
-constexpr double shortest_step = 1e-10;
-constexpr double sufficient_decrease = 1e-4;
-constexpr double switch_descent_power = 2.3, switch_violation_power = 1.1;
-constexpr double most_violation_factor = 1e4, small_violation_factor = 1e-4;
-constexpr double rounding = 1e-13;  // of the objective: differences below are noise
-constexpr int corrections = 2;      // second-order corrections tried at each length
-constexpr double fair_price = 10;   // times sum |lambda c|: most that reducing a small violation may cost
-
 // The inertia correction decays by this after a step that needed none, and is forgotten below the least.
 constexpr double shift_decay = 3, least_shift = 1e-6;
 
-// Restoration ends once the violation has fallen to this fraction; its damping grows and shrinks by tens.
-constexpr double restored = 0.9;
-constexpr double first_damping = 1e-8, most_damping = 1e12;
+// The filter forbids violations this many times the start's.
+constexpr double most_violation_factor = 1e4;
 
-// The violation is stationary where |A^T c| <= this * |c| in units of the rows' largest gradient.
-constexpr double stationary_violation = 1e-7;
+// The barrier, in units of max(1, |objective|) shared by all limits: where it starts, how well the problem with it must
+// be solved before it falls, and how it falls [Waechter and Biegler 2006, eq. 7]; the last is this fraction of the
+// tolerance.
+constexpr double first_mu = 0.1, barrier_error = 10, mu_factor = 0.2, mu_power = 1.5, last_mu = 0.5;
 
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), begun_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
+// A soft inequality that is met: so compliant that it asks nothing.
+constexpr double inert = 1e30;
 
- private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point begun_;
-};
+// An instance whose condition has changed sides so often stays on.
+constexpr int most_switches = 4;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
+Stopwatch::Stopwatch(double& seconds) : seconds_(seconds), begun_(now()) {}
+Stopwatch::~Stopwatch() { seconds_ += now() - begun_; }
+
 Newton::Newton(const Transcription& transcription, const Layout& layout)
-    : t_(transcription), layout_(layout), kkt_(transcription, layout) {
-  soft_weight_ = Eigen::VectorXd::Zero(layout.size());
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    if (t_.rows[r].kind == Row::Kind::soft) soft_weight_[layout.of_row[r]] = t_.rows[r].weight;
-  }
-}
+    : t_(transcription), layout_(layout), kkt_(transcription, layout), limits_(transcription, layout) {}
 
 Eigen::VectorXd Newton::residual_of(const Values& values) const {
   Eigen::VectorXd c = Eigen::VectorXd::Zero(layout_.size());
   for (std::size_t r = 0; r < t_.rows.size(); ++r) c[layout_.of_row[r]] = values.residual[r];
   return c;
+}
+
+Eigen::VectorXd Newton::soft_weights(const Eigen::VectorXd& c) const {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(layout_.size());
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
+    const Row& row = t_.rows[r];
+    const int k = layout_.of_row[r];
+    if (row.kind == Row::Kind::soft && !(row.at_most && c[k] <= 0)) weights[k] = row.weight;
+  }
+  return weights;
+}
+
+double Newton::filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const {
+  double sum = 0;
+  for (int k = 0; k < layout_.size(); ++k) {
+    if (kkt_.is_equation(k)) sum += std::abs(c[k]);
+  }
+  for (const int k : limits_.rows()) sum += std::abs(c[k] + barrier.slack[k]);
+  return sum;
 }
 
 double Newton::largest_change(const Eigen::VectorXd& direction) const {
@@ -72,60 +65,54 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   return largest;
 }
 
-Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& change) const {
-  const Stopwatch watch(state.seconds.evaluate);
-  Trial trial;
-  trial.x = state.x;
-  for (int u = 0; u < t_.unknowns(); ++u) trial.x[u] += change[layout_.of_unknown[u]];
-  trial.values = evaluate(t_, trial.x, workspace_);
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    if (t_.rows[r].kind != Row::Kind::soft) trial.sum += std::abs(trial.values.residual[r]);
-  }
-  return trial;
-}
-
 // Derivatives, multipliers and measures at state.x.
 void Newton::judge(NewtonState& state) {
+  const Eigen::VectorXd c = residual_of(state.values);
   state.condition = StepResult::not_finite;
   state.measures = {};
+  state.measures.sum = filter_sum(c, state.barrier);
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     if (t_.rows[r].kind == Row::Kind::soft) continue;
-    state.measures.violation = std::max(state.measures.violation, std::abs(state.values.residual[r]));
-    state.measures.sum += std::abs(state.values.residual[r]);
+    const double amount = std::abs(excess(t_.rows[r], state.values.residual[r]));
+    state.measures.violation = std::max(state.measures.violation, amount);
   }
   if (!state.values.finite) return;
 
   Linearisation& linear = state.linear;
   {
     const Stopwatch watch(state.seconds.evaluate);
-    linearise(t_, layout_, state.x, workspace_, linear);
-    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weight_.cwiseProduct(residual_of(state.values)));
+    linearise(t_, layout_, state.x, workspace_, linear, state.active);
+    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weights(c).cwiseProduct(c));
   }
   for (int k = 0; k < layout_.size(); ++k) {
     if (kkt_.is_row(k)) state.gradient[k] = 0;
   }
   if (!state.gradient.allFinite()) return;
 
+  // The gradient of the Lagrangian but for equations; then the equations' multipliers that best cancel it.
+  Eigen::VectorXd pulled = state.gradient + limits_.pull(state.barrier) + multiply(linear.jacobian, state.barrier.dual);
   std::optional<Eigen::VectorXd> lambda;
   {
     const Stopwatch watch(state.seconds.factor);
-    lambda = kkt_.least_squares_multipliers(linear, state.gradient);
+    lambda = kkt_.least_squares_multipliers(linear, pulled);
   }
   state.condition = StepResult::singular;
   if (!lambda) return;
-  Eigen::VectorXd of_rows = Eigen::VectorXd::Zero(layout_.size());
+  Eigen::VectorXd of_equations = Eigen::VectorXd::Zero(layout_.size());
+  const Eigen::VectorXd weights = soft_weights(c);
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    const int position = layout_.of_row[r];
-    if (kkt_.is_hard(position)) of_rows[position] = (*lambda)[position];
-    state.multipliers[r] = kkt_.is_hard(position) ? of_rows[position] : t_.rows[r].weight * state.values.residual[r];
+    const int k = layout_.of_row[r];
+    if (kkt_.is_equation(k)) of_equations[k] = (*lambda)[k];
+    state.multipliers[r] = of_equations[k] + state.barrier.dual[k] + weights[k] * c[k];
   }
-  const Eigen::VectorXd pull = multiply(linear.jacobian, of_rows);
-  double largest = 0, of_objective = 0;
+  pulled += multiply(linear.jacobian, of_equations);
+  double largest = 0, of_objective = 1;
   for (const int position : layout_.of_unknown) {
-    largest = std::max(largest, std::abs(state.gradient[position] + pull[position]));
+    largest = std::max(largest, std::abs(pulled[position]));
     of_objective = std::max(of_objective, std::abs(state.gradient[position]));
   }
-  state.measures.stationarity = largest / std::max(1.0, of_objective);
+  state.measures.stationarity = largest / of_objective;
+  state.measures.gap = limits_.gap(state.x, state.barrier, 0) / std::max(1.0, std::abs(state.values.objective));
 
   const Stopwatch watch(state.seconds.evaluate);
   add_row_curvature(t_, layout_, state.x, state.values, state.multipliers, workspace_, linear);
@@ -137,208 +124,129 @@ void Newton::judge(NewtonState& state) {
 
 NewtonState Newton::start(std::vector<double> x) {
   NewtonState state;
+  limits_.push_inside(x);
   settle_functionals(t_, x, workspace_);
   state.x = std::move(x);
   state.linear = start_linearisation(layout_);
   state.multipliers.assign(t_.rows.size(), 0.0);
-  state.values = evaluate(t_, state.x, workspace_);
+  state.active = active_rows(t_, state.x, workspace_);
+  state.switches.assign(t_.rows.size(), 0);
+  state.values = evaluate(t_, state.x, workspace_, state.active);
   state.radius = first_radius;
+  const double size = std::isfinite(state.values.objective) ? std::abs(state.values.objective) : 0;
+  const double mu = first_mu * std::max(1.0, size) / std::max(1, limits_.count());
+  state.barrier = limits_.start(state.x, residual_of(state.values), mu);
   judge(state);
   state.most_violation = std::max(1.0, state.measures.sum);
   state.filter.limit(most_violation_factor * state.most_violation);
   return state;
 }
 
-void Newton::accept(NewtonState& state, Trial trial) {
-  state.step = 0;
-  for (int u = 0; u < t_.unknowns(); ++u) state.step = std::max(state.step, std::abs(trial.x[u] - state.x[u]));
-  state.x = std::move(trial.x);
-  state.values = std::move(trial.values);
-  ++state.iterations;
+// `when`, settled at the start of each iteration.
+void Newton::settle_conditions(NewtonState& state) {
+  if (t_.conditionals.empty()) return;
+  auto active = active_rows(t_, state.x, workspace_);
+  std::vector<int> changed;
+  for (std::size_t r = 0; r < active.size(); ++r) {
+    if (active[r] == state.active[r]) continue;
+    if (state.switches[r] >= most_switches) {
+      active[r] = 1;
+      if (state.active[r]) continue;
+    }
+    ++state.switches[r];
+    changed.push_back(layout_.of_row[r]);
+  }
+  if (changed.empty()) return;
+  state.active = std::move(active);
+  state.values = evaluate(t_, state.x, workspace_, state.active);
+  const Barrier fresh = limits_.start(state.x, residual_of(state.values), state.barrier.mu);
+  for (const int k : changed) {
+    state.barrier.slack[k] = fresh.slack[k];
+    state.barrier.dual[k] = fresh.dual[k];
+  }
+  state.filter.clear();
   judge(state);
+}
+
+void Newton::lower_barrier(NewtonState& state, double tolerance) const {
+  if (limits_.none()) return;
+  const double unit = std::max(1.0, std::abs(state.values.objective)) / limits_.count();
+  const Eigen::VectorXd c = residual_of(state.values);
+  double violation = 0;
+  for (int k = 0; k < layout_.size(); ++k) {
+    if (kkt_.is_equation(k)) violation = std::max(violation, std::abs(c[k]));
+  }
+  for (const int k : limits_.rows()) violation = std::max(violation, std::abs(c[k] + state.barrier.slack[k]));
+  for (double mu = state.barrier.mu / unit; mu > last_mu * tolerance; mu = state.barrier.mu / unit) {
+    const double gap = limits_.gap(state.x, state.barrier, state.barrier.mu) / (unit * limits_.count());
+    if (std::max({state.measures.stationarity, violation, gap}) > barrier_error * mu) return;
+    state.barrier.mu = unit * std::max(last_mu * tolerance, std::min(mu_factor * mu, std::pow(mu, mu_power)));
+    state.filter.clear();
+  }
 }
 
 StepResult Newton::step(NewtonState& state, double tolerance) {
   if (state.condition != StepResult::stepped) return state.condition;
-  if (state.measures.violation <= tolerance && state.measures.stationarity <= tolerance) return StepResult::converged;
+  settle_conditions(state);
+  if (state.condition != StepResult::stepped) return state.condition;
+  if (state.measures.within(tolerance)) return StepResult::converged;
   if (state.restore_from > 0) return restore(state, tolerance);
+  lower_barrier(state, tolerance);
 
+  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  Eigen::VectorXd right =
+      state.linear.gradient + limits_.gradient(state.x, state.barrier) + limits_.right(c, state.barrier);
+  Eigen::VectorXd diagonal = limits_.diagonal(state.x, state.barrier);
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
+    if (t_.rows[r].kind != Row::Kind::soft) continue;
+    const int k = layout_.of_row[r];
+    diagonal[k] = weights[k] > 0 ? -1 / weights[k] : -inert;
+    if (weights[k] == 0) right[k] = 0;
+  }
   std::optional<Kkt::Step> step;
   {
     const Stopwatch watch(state.seconds.factor);
-    step = kkt_.step(state.linear, -(state.linear.gradient + residual_of(state.values)), state.shift);
+    step = kkt_.step(state.linear, diagonal, -right, state.shift);
   }
   if (!step) return StepResult::singular;
   state.shift_used = step->shift;
   state.shift = step->shift > 0 ? step->shift : state.shift / shift_decay;
   if (state.shift < least_shift) state.shift = 0;
-  return search(state, model_of(state, step->solution), tolerance);
+  return search(state, model_of(state, std::move(step->solution)), tolerance);
 }
 
-Newton::Model Newton::model_of(const NewtonState& state, const Eigen::VectorXd& solution) const {
-  Model model{solution, solution, 0, 0, 0, 0, 0, 0};
-  for (int k = 0; k < layout_.size(); ++k) {
-    if (kkt_.is_row(k)) model.d[k] = 0;
-    if (!kkt_.is_hard(k)) model.multipliers[k] = 0;
-  }
-  const Eigen::VectorXd c = residual_of(state.values), slope = multiply(state.linear.jacobian, model.d);
-  model.size = largest_change(model.d);
-  model.descent = state.gradient.dot(model.d);
-  model.curvature = model.d.dot(multiply(state.linear.hessian, model.d));
-  for (int k = 0; k < layout_.size(); ++k) {
-    if (kkt_.is_row(k)) model.curvature += soft_weight_[k] * slope[k] * slope[k];
-    model.pull += model.multipliers[k] * slope[k];
-  }
-  model.lagrangian = lagrangian(model, state.values);
+Newton::Model Newton::model_of(const NewtonState& state, Eigen::VectorXd solution) const {
+  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  Model model;
+  model.d = model.multipliers = solution;
+  for (int k = 0; k < layout_.size(); ++k) (kkt_.is_row(k) ? model.d : model.multipliers)[k] = 0;
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    if (t_.rows[r].kind != Row::Kind::soft) model.price += std::abs(state.multipliers[r] * state.values.residual[r]);
+    if (t_.rows[r].kind == Row::Kind::soft) model.multipliers[layout_.of_row[r]] = 0;
+  }
+  Eigen::VectorXd slope = multiply(state.linear.jacobian, model.d);
+  for (int k = 0; k < layout_.size(); ++k) {
+    if (!kkt_.is_row(k)) slope[k] = 0;
+  }
+  model.change = limits_.change(state.x, state.barrier, c, slope, solution);
+  const Barrier& barrier = state.barrier;
+
+  model.size = largest_change(model.d);
+  model.merit = state.values.objective + limits_.value(state.x, barrier);
+  model.lagrangian = model.merit + model.multipliers.dot(c + barrier.slack);
+  model.descent = (state.gradient + limits_.gradient(state.x, barrier)).dot(model.d);
+  model.pull = model.multipliers.dot(slope + model.change.slack);
+  const Eigen::VectorXd of_bounds = limits_.diagonal(state.x, barrier);
+  model.curvature = model.d.dot(multiply(state.linear.hessian, model.d) + of_bounds.cwiseProduct(model.d)) +
+                    weights.dot(slope.cwiseAbs2());
+  for (const int k : limits_.rows()) {
+    model.descent -= barrier.mu * model.change.slack[k] / barrier.slack[k];
+    model.curvature += barrier.dual[k] / barrier.slack[k] * model.change.slack[k] * model.change.slack[k];
+  }
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
+    const int k = layout_.of_row[r];
+    if (t_.rows[r].kind != Row::Kind::soft) model.price += std::abs(state.multipliers[r] * (c[k] + barrier.slack[k]));
   }
   return model;
-}
-
-double Newton::lagrangian(const Model& model, const Values& values) const {
-  return values.objective + model.multipliers.dot(residual_of(values));
-}
-
-// Whether the Lagrangian changed as predicted, to the given fraction.
-bool Newton::holds(const Model& model, const Trial& trial, double length, double error) const {
-  if (!trial.values.finite) return false;
-  const double predicted = length * (model.descent + model.pull) + length * length / 2 * model.curvature;
-  const double difference = lagrangian(model, trial.values) - model.lagrangian - predicted;
-  return std::abs(difference) <= error * std::abs(predicted) + rounding * std::abs(model.lagrangian);
-}
-
-Newton::Verdict Newton::verdict(const NewtonState& state, const Model& model, const Trial& trial, double length) const {
-  const double violation = state.measures.sum, objective = state.values.objective, now = trial.values.objective;
-  if (!trial.values.finite || !state.filter.admits(trial.sum, now)) return Verdict::rejected;
-  const double slack = rounding * std::abs(objective);
-  if (violation <= small_violation_factor * state.most_violation) {
-    const bool switching = model.descent < 0 && length * std::pow(-model.descent, switch_descent_power) >
-                                                    std::pow(violation, switch_violation_power);
-    if (switching) {
-      const bool enough = now <= objective + sufficient_decrease * length * model.descent + slack;
-      return enough ? Verdict::objective_step : Verdict::rejected;
-    }
-    // A violation this small is no reason to give up much of the objective.
-    if (now > objective + fair_price * model.price + slack) return Verdict::rejected;
-  }
-  const bool better = trial.sum <= (1 - Filter::margin) * violation || now <= objective - Filter::margin * violation;
-  return better ? Verdict::violation_step : Verdict::rejected;
-}
-
-// A second-order correction: from the trial point back to where the linearised constraints said it would be, by the
-// smallest change in the metric of the step's own matrix.
-std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& model, const Trial& trial,
-                                               double length) {
-  if (!trial.values.finite) return std::nullopt;
-  const Eigen::VectorXd c = residual_of(state.values);
-  Eigen::VectorXd change = length * model.d;
-  Eigen::VectorXd missed = residual_of(trial.values) - (1 - length) * c;
-  for (int k = 0; k < corrections; ++k) {
-    for (int i = 0; i < layout_.size(); ++i) {
-      if (!kkt_.is_hard(i)) missed[i] = 0;
-    }
-    std::optional<Eigen::VectorXd> back;
-    {
-      const Stopwatch watch(state.seconds.factor);
-      back = kkt_.solve(-missed);
-    }
-    if (!back) return std::nullopt;
-    for (const int position : layout_.of_unknown) change[position] += (*back)[position];
-    if (largest_change(change) > 2 * length * model.size) return std::nullopt;  // no correction any more
-    Trial other = try_at(state, change);
-    if (verdict(state, model, other, length) != Verdict::rejected) return other;
-    if (!other.values.finite) return std::nullopt;
-    missed = residual_of(other.values) - (1 - length) * c;
-  }
-  return std::nullopt;
-}
-
-StepResult Newton::search(NewtonState& state, const Model& model, double tolerance) {
-  const double violation = state.measures.sum, objective = state.values.objective;
-  Trial trial = try_at(state, model.d);
-  const bool trusted = holds(model, trial, 1, model_error) && trial.sum <= violation_error * violation + tolerance;
-  double length = 1;
-  if (!trusted && model.size > state.radius) {
-    length = state.radius / model.size;
-    trial = try_at(state, length * model.d);
-  }
-  const double first_length = length;
-  bool was_corrected = false;
-  Verdict said = verdict(state, model, trial, length);
-  while (said == Verdict::rejected) {
-    if (auto other = corrected(state, model, trial, length)) {
-      trial = std::move(*other);
-      said = verdict(state, model, trial, length);
-      was_corrected = true;
-      break;
-    }
-    length /= 2;
-    if (length < shortest_step) {
-      if (violation <= tolerance) return StepResult::exhausted;
-      state.filter.add(violation, objective);
-      state.restore_from = violation;
-      state.damping = first_damping;
-      return restore(state, tolerance);
-    }
-    trial = try_at(state, length * model.d);
-    said = verdict(state, model, trial, length);
-  }
-
-  if (said == Verdict::violation_step) state.filter.add(violation, objective);
-  if (!trusted) {
-    if (length < first_length) {
-      state.radius = std::max(length * model.size, first_radius);
-    } else if (!was_corrected) {
-      const bool good = holds(model, trial, length, good_model_error);
-      if (good && first_length < 1) state.radius *= radius_growth;
-      if (!good) state.radius = std::max(state.radius / radius_growth, first_radius);
-    }
-  }
-  accept(state, std::move(trial));
-  return StepResult::stepped;
-}
-
-// One Levenberg-Marquardt step on sum c^2 / 2, until the filter takes the point and the violation has fallen.
-StepResult Newton::restore(NewtonState& state, double tolerance) {
-  const Eigen::VectorXd c = residual_of(state.values);
-  Eigen::VectorXd hard = c;
-  double squares = 0;
-  for (int k = 0; k < layout_.size(); ++k) {
-    if (!kkt_.is_hard(k)) hard[k] = 0;
-    squares += hard[k] * hard[k];
-  }
-  for (; state.damping <= most_damping; state.damping *= 10) {
-    std::optional<Eigen::VectorXd> solution;
-    {
-      const Stopwatch watch(state.seconds.factor);
-      if (kkt_.factor_feasibility(state.linear, state.damping)) solution = kkt_.solve(-hard);
-    }
-    if (!solution) continue;
-    Eigen::VectorXd d = *solution;
-    for (int k = 0; k < layout_.size(); ++k) {
-      if (kkt_.is_row(k)) d[k] = 0;
-    }
-    const double slope = hard.dot(multiply(state.linear.jacobian, d));  // of the half sum of squares along d
-    if (!(slope < -stationary_violation * squares)) continue;
-    const double size = largest_change(d);
-    for (double length = std::min(1.0, state.radius / size); length > 1e-3; length /= 2) {
-      Trial trial = try_at(state, length * d);
-      if (!trial.values.finite) continue;
-      double now = 0;
-      for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-        if (t_.rows[r].kind != Row::Kind::soft) now += trial.values.residual[r] * trial.values.residual[r];
-      }
-      if (!(now <= squares + 2 * sufficient_decrease * length * slope)) continue;
-      state.damping = std::max(state.damping / 10, first_damping);
-      state.shift_used = 0;
-      const bool enough = trial.sum <= std::max(restored * state.restore_from, tolerance);
-      if (enough && state.filter.admits(trial.sum, trial.values.objective)) state.restore_from = 0;
-      accept(state, std::move(trial));
-      return StepResult::stepped;
-    }
-  }
-  return StepResult::infeasible;
 }
 
 }  // namespace spacetime::optimizer

@@ -1,5 +1,6 @@
-// Our method: Newton-Lagrange with exact second derivatives, globalised by a filter with second-order corrections and
-// a radius that limits the step while the quadratic model does not yet hold.  optimizer/README.md tells why so.
+// Our method: Newton-Lagrange with exact second derivatives and a primal-dual barrier for limits, globalised by a
+// filter with second-order corrections and a radius that limits the step while the quadratic model does not yet hold.
+// optimizer/README.md tells why so.  newton.cpp judges points and makes steps, search.cpp accepts them.
 #pragma once
 
 #include <optional>
@@ -8,14 +9,20 @@
 #include "common/motion.h"
 #include "optimizer/filter.h"
 #include "optimizer/kkt.h"
+#include "optimizer/limits.h"
 
 namespace spacetime::optimizer {
 
 // How things stand at a point.
 struct Measures {
-  double violation = 0;     // largest |c| over hard rows, in their own units
-  double sum = 0;           // their sum: the filter's measure
+  double violation = 0;     // largest of hard rows, in their own units
+  double sum = 0;           // of |c| and |c + s|: the filter's measure
   double stationarity = 0;  // largest component of the Lagrangian's gradient, over max(1, that of the objective's)
+  double gap = 0;           // sum of slack * multiplier over max(1, |objective|): what limits may still hide
+
+  bool within(double tolerance) const {
+    return violation <= tolerance && stationarity <= tolerance && gap <= tolerance;
+  }
 };
 
 enum class StepResult {
@@ -33,11 +40,15 @@ struct NewtonState {
   Linearisation linear;             // at x
   Eigen::VectorXd gradient;         // of the whole objective, soft rows among it, in KKT positions
   std::vector<double> multipliers;  // one a row; the sign is that of  gradient + A^T multipliers = 0
+  Barrier barrier;
   Measures measures;
   StepResult condition = StepResult::stepped;  // not_finite or singular where x cannot be gone on from
 
+  std::vector<char> active;    // rows whose condition holds
+  std::vector<char> switches;  // how often each has changed sides
+
   Filter filter;
-  double most_violation = 0;  // of the start; 0: not begun
+  double most_violation = 0;  // of the start
   double shift = 0;           // the inertia correction that was needed last, decaying
   double radius = 0;          // limit on the change of a coefficient while the model does not hold
   double restore_from = 0;    // while the violation alone is reduced: its sum where that began
@@ -64,39 +75,67 @@ class Newton {
   struct Trial {
     std::vector<double> x;
     Values values;
-    double sum = 0;  // of hard violations
+    Barrier barrier;
+    double sum = 0;    // the filter's measure
+    double merit = 0;  // objective with barrier
+    bool finite = false;
   };
   // The step's direction, and what the quadratic model says along it.
   struct Model {
-    Eigen::VectorXd d, multipliers;  // at unknowns; at hard rows: new ones
-    double size = 0;                 // largest change of a coefficient
-    double descent = 0;              // of the objective along d
-    double pull = 0;                 // of multipliers * c along d
-    double curvature = 0;            // of the Lagrangian along d
-    double lagrangian = 0;           // here
-    double price = 0;                // of the present violation: sum |multiplier c|
+    Eigen::VectorXd d, multipliers;    // at unknowns; at equations and limits: new ones
+    Limits::Change change;             // of slacks and the barrier's multipliers
+    double size = 0;                   // largest change of a coefficient
+    double descent = 0;                // of the merit along d
+    double pull = 0;                   // of multipliers * c along d
+    double curvature = 0;              // of the Lagrangian along d
+    double merit = 0, lagrangian = 0;  // here
+    double price = 0;                  // of the present violation: sum |multiplier c|
   };
   enum class Verdict { rejected, objective_step, violation_step };
 
-  Model model_of(const NewtonState& state, const Eigen::VectorXd& solution) const;
-  double lagrangian(const Model& model, const Values& values) const;
+  // newton.cpp
+  void judge(NewtonState& state);
+  void settle_conditions(NewtonState& state);
+  void lower_barrier(NewtonState& state, double tolerance) const;
+  Model model_of(const NewtonState& state, Eigen::VectorXd solution) const;
+  Eigen::VectorXd residual_of(const Values& values) const;       // c in KKT positions
+  Eigen::VectorXd soft_weights(const Eigen::VectorXd& c) const;  // w where a soft row asks something
+  double filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const;
+  double largest_change(const Eigen::VectorXd& direction) const;
+
+  // search.cpp
+  Trial try_at(NewtonState& state, const Eigen::VectorXd& change, const Barrier& barrier) const;
+  double lagrangian(const Model& model, const Trial& trial) const;
   bool holds(const Model& model, const Trial& trial, double length, double error) const;
   Verdict verdict(const NewtonState& state, const Model& model, const Trial& trial, double length) const;
   std::optional<Trial> corrected(NewtonState& state, const Model& model, const Trial& trial, double length);
+  Barrier moved(const NewtonState& state, const Model& model, double length) const;
   StepResult search(NewtonState& state, const Model& model, double tolerance);
   StepResult restore(NewtonState& state, double tolerance);
-
-  Trial try_at(NewtonState& state, const Eigen::VectorXd& change) const;
   void accept(NewtonState& state, Trial trial);
-  void judge(NewtonState& state);
-  Eigen::VectorXd residual_of(const Values& values) const;
-  double largest_change(const Eigen::VectorXd& direction) const;
 
   const Transcription& t_;
   const Layout& layout_;
   mutable Workspace workspace_;
   Kkt kkt_;
-  Eigen::VectorXd soft_weight_;  // w at soft rows' positions, else 0
+  Limits limits_;
 };
+
+// Adds the time of its own life to a number.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds);
+  ~Stopwatch();
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  double begun_;
+};
+
+// Constants of the method that both files share.
+inline constexpr double first_radius = 0.6;  // see search.cpp
+inline constexpr double rounding = 1e-13;    // of the objective: differences below are noise
 
 }  // namespace spacetime::optimizer

@@ -38,7 +38,7 @@ std::vector<Violation> violations(const Transcription& t, const Values& values) 
       result.push_back({constraint.name, 0, std::nullopt, constraint.place.line});
       if (!std::isnan(row.time)) result.back().time = row.time;
     }
-    const double amount = std::abs(values.residual[r]);
+    const double amount = std::abs(excess(row, values.residual[r]));
     if (amount > result[index].max) {
       result[index].max = amount;
       if (!std::isnan(row.time)) result[index].time = row.time;
@@ -95,6 +95,10 @@ class Runner {
         newton_(t_, layout_) {
     auto x = options.start ? sketch_from(problem, t_.constants, *options.start) : sketch(problem, t_.constants);
     x.resize(t_.unknowns(), 0.0);
+    for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
+      const Parameter& parameter = problem.parameters[k];
+      x[t_.first_parameter() + k] = evaluate(problem, t_.constants, parameter.start, "the start of " + parameter.name);
+    }
     state_ = newton_.start(std::move(x));
   }
 
@@ -146,8 +150,7 @@ class Runner {
   }
 
   bool reached(double tolerance) const {
-    return state_.measures.violation <= tolerance && state_.measures.stationarity <= tolerance &&
-           state_.condition == StepResult::stepped;
+    return state_.measures.within(tolerance) && state_.condition == StepResult::stepped;
   }
   std::string count() const {
     return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s");
@@ -170,7 +173,7 @@ class Runner {
     Workspace workspace;
     auto x = state_.x;
     settle_functionals(t_, x, workspace);
-    const Values values = evaluate(t_, x, workspace);
+    const Values values = evaluate(t_, x, workspace, state_.active);
 
     Motion motion;
     motion.start = problem_.start;
@@ -210,7 +213,8 @@ class Runner {
     std::vector<double> sums(problem_.constraints.size(), 0.0);
     for (std::size_t r = 0; r < t_.rows.size(); ++r) {
       if (t_.rows[r].kind != Row::Kind::soft) continue;
-      sums[t_.rows[r].statement] += t_.rows[r].weight / 2 * values.residual[r] * values.residual[r];
+      const double amount = excess(t_.rows[r], values.residual[r]);
+      sums[t_.rows[r].statement] += t_.rows[r].weight / 2 * amount * amount;
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
       if (problem_.constraints[k].weight) motion.terms.emplace_back(problem_.constraints[k].name, sums[k]);

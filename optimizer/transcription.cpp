@@ -60,7 +60,7 @@ std::vector<double> finest_knots(const Problem& problem, const Program& program)
 
 // What of each input the program's derivative entries mean: a slot's derivative, or a functional.
 struct Meaning {
-  int slot = -1, derivative = 0, functional = -1;
+  int slot = -1, derivative = 0, border = -1;
 };
 
 void add_slots(const Problem& problem, Batch& batch, std::vector<Meaning>& meanings) {
@@ -70,7 +70,11 @@ void add_slots(const Problem& problem, Batch& batch, std::vector<Meaning>& meani
   meanings.resize(program.inputs.size());
   for (std::size_t i = 0; i < program.inputs.size(); ++i) {
     const Input& input = program.inputs[i];
-    if (input.kind == InputKind::functional) meanings[i].functional = input.index;
+    if (input.kind == InputKind::functional) meanings[i].border = input.index;
+    if (input.kind == InputKind::parameter) {
+      const auto found = std::ranges::find(problem.parameters, input.name, &Parameter::name);
+      meanings[i].border = static_cast<int>(problem.functionals.size() + (found - problem.parameters.begin()));
+    }
     if (input.kind != InputKind::dof) continue;
     const int dof = index_of(problem, input.name);
     const auto [found, added] = slot_of_dof.try_emplace(dof, static_cast<int>(batch.slots.size()));
@@ -94,8 +98,8 @@ void add_jacobian(Batch& batch, const std::vector<Meaning>& meanings) {
   const auto& entries = batch.program->jacobian;
   for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
     const Meaning& by = meanings[entries[k].input];
-    if (by.functional >= 0) {
-      batch.functional_jacobian.push_back({entries[k].row, by.functional, k});
+    if (by.border >= 0) {
+      batch.border_jacobian.push_back({entries[k].row, by.border, k});
       continue;
     }
     const auto [found, added] =
@@ -110,9 +114,9 @@ void add_hessian(Batch& batch, const std::vector<Meaning>& meanings) {
   const auto& entries = batch.program->hessian;
   for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
     Meaning a = meanings[entries[k].row], b = meanings[entries[k].column];
-    if (a.functional < 0 && b.functional >= 0) std::swap(a, b);
-    if (a.functional >= 0) {
-      batch.functional_hessian.push_back({a.functional, b.functional, b.slot, b.derivative, k});
+    if (a.border < 0 && b.border >= 0) std::swap(a, b);
+    if (a.border >= 0) {
+      batch.border_hessian.push_back({a.border, b.border, b.slot, b.derivative, k});
       continue;
     }
     if (a.slot < b.slot) std::swap(a, b);
@@ -150,6 +154,8 @@ class Transcriber {
     }
     out_.first.push_back(unknowns);
     out_.first.push_back(unknowns + static_cast<int>(problem_.functionals.size()));
+    out_.first.push_back(out_.first.back() + static_cast<int>(problem_.parameters.size()));
+    add_bounds();
     for (const auto& [hash, program] : problem_.programs) out_.evaluators.emplace(hash, Evaluator(program));
     add_functionals();
     add_objective();
@@ -204,6 +210,32 @@ class Transcriber {
     }
   }
 
+  void add_bounds() {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    out_.lower.assign(out_.unknowns(), -infinite);
+    out_.upper.assign(out_.unknowns(), infinite);
+    const auto bound = [&](const std::string& name, const std::optional<Quantity>& lower,
+                           const std::optional<Quantity>& upper, int from, int to) {
+      const double low = lower ? value(*lower, "the lower bound of " + name) : -infinite;
+      const double high = upper ? value(*upper, "the upper bound of " + name) : infinite;
+      if (!(low < high)) {
+        throw InputError("the bounds of " + name + " leave no room: " + std::to_string(low) + " to " +
+                         std::to_string(high) + ". Use `eliminate`, or a constraint, for what does not move");
+      }
+      std::fill(out_.lower.begin() + from, out_.lower.begin() + to, low);
+      std::fill(out_.upper.begin() + from, out_.upper.begin() + to, high);
+    };
+    for (int k = 0; k < out_.dofs(); ++k) {
+      const Dof& dof = problem_.dofs[k];
+      bound(dof.name, dof.lower, dof.upper, out_.first[k], out_.first[k + 1]);
+    }
+    for (std::size_t k = 0; k < problem_.parameters.size(); ++k) {
+      const Parameter& parameter = problem_.parameters[k];
+      const int at = out_.first_parameter() + static_cast<int>(k);
+      bound(parameter.name, parameter.lower, parameter.upper, at, at + 1);
+    }
+  }
+
   void add_functionals() {
     for (int k = 0; k < static_cast<int>(problem_.functionals.size()); ++k) {
       const Functional& functional = problem_.functionals[k];
@@ -213,7 +245,7 @@ class Transcriber {
       sample(batch, functional.kind == Functional::Kind::integral, true, functional.from, functional.to,
              "a functional");
       finish(std::move(batch));
-      out_.rows.push_back({Row::Kind::functional, k, no_time, 0});
+      out_.rows.push_back({Row::Kind::functional, k, no_time, 0, false});
     }
   }
 
@@ -248,7 +280,7 @@ class Transcriber {
 
   void add_constraint(int index) {
     const Constraint& constraint = problem_.constraints[index];
-    Row row{Row::Kind::hard, index, no_time, 0};
+    Row row{Row::Kind::hard, index, no_time, 0, constraint.relation == Constraint::Relation::at_most};
     if (constraint.weight) {
       row.kind = Row::Kind::soft;
       row.weight = value(*constraint.weight, constraint.name + ": the weight");
@@ -258,12 +290,42 @@ class Transcriber {
     Batch batch = start_batch(constraint.program);
     batch.times = scope_times(problem_, out_.constants, constraint.scope, finest_knots(problem_, *batch.program),
                               constraint.name);
+    if (constraint.condition) keep_where(*constraint.condition, batch);
     batch.first_row = static_cast<int>(out_.rows.size());
+    if (constraint.condition) add_condition(*constraint.condition, batch);
     for (const double time : batch.times) {
       row.time = time;
       out_.rows.insert(out_.rows.end(), batch.outputs(), row);
     }
     finish(std::move(batch));
+  }
+
+  bool depends_on_motion(const Program& program) const {
+    return std::ranges::any_of(program.inputs, [](const Input& input) { return is_unknown(input.kind); });
+  }
+
+  // A condition on time and constants alone is settled here: instances where it fails are dropped.
+  void keep_where(const Condition& condition, Batch& batch) const {
+    const Program& program = problem_.programs.at(condition.program);
+    if (depends_on_motion(program)) return;
+    std::erase_if(batch.times, [&](double time) {
+      std::vector<double> inputs;
+      for (const Input& input : program.inputs) {
+        inputs.push_back(input.kind == InputKind::time ? time : out_.constants.at(input.name));
+      }
+      return evaluate_once(program, Depth::values, inputs)[condition.output] == 0;
+    });
+  }
+
+  void add_condition(const Condition& condition, const Batch& batch) {
+    if (!depends_on_motion(problem_.programs.at(condition.program))) return;
+    Conditional conditional{start_batch(condition.program), condition.output, batch.first_row, batch.outputs()};
+    conditional.condition.times = batch.times;
+    conditional.condition.weights.assign(batch.times.size(), 1.0);
+    conditional.condition.targets.resize(conditional.condition.outputs());
+    std::vector<Meaning> meanings;
+    add_slots(problem_, conditional.condition, meanings);
+    out_.conditionals.push_back(std::move(conditional));
   }
 
   const Problem& problem_;

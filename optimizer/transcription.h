@@ -1,10 +1,10 @@
 // From a problem to a finite-dimensional one: unknown coefficients, and programs at fixed times.
 //
 //   minimise  f(x) = sum of the objective's terms + sum over soft rows of w/2 r(x)^2
-//   such that c(x) = 0 in every hard row
+//   such that c(x) = 0, or c(x) <= 0, in every hard row, and lower <= x <= upper
 //
 // The unknowns x are the coefficients of all degrees of freedom, one after another, then one number z for each lifted
-// functional F, whose row is z - F(x) = 0.  [Cohen92 §3.4; design, "Numerics"]
+// functional F, whose row is z - F(x) = 0, then the parameters.  [Cohen92 §3.4; design, "Numerics"]
 #pragma once
 
 #include <array>
@@ -23,9 +23,10 @@ namespace spacetime::optimizer {
 // One scalar equation.
 struct Row {
   enum class Kind { hard, soft, functional } kind = Kind::hard;
-  int statement = 0;  // index of the constraint, or of the functional
-  double time = 0;    // s; not a number where the relation has none
-  double weight = 0;  // soft
+  int statement = 0;     // index of the constraint, or of the functional
+  double time = 0;       // s; not a number where the relation has none
+  double weight = 0;     // soft
+  bool at_most = false;  // c <= 0 rather than c = 0
 };
 
 // A degree of freedom that a program uses: its inputs by derivative, -1 where absent.
@@ -45,11 +46,12 @@ struct HessianBlock {  // entry[d][e]: by derivative d of slot a and derivative 
   int a = 0, b = 0;
   std::array<std::array<int, max_derivative + 1>, max_derivative + 1> entry{};
 };
-struct FunctionalJacobian {  // of output `output` by a functional
-  int output = 0, functional = 0, entry = 0;
+// Functionals and parameters together: unknowns of the border, counted from the first functional.
+struct BorderJacobian {  // of output `output` by an unknown of the border
+  int output = 0, unknown = 0, entry = 0;
 };
-struct FunctionalHessian {  // by a functional and another (`slot` -1), or by a functional and a slot's derivative
-  int functional = 0, other = -1, slot = -1, derivative = 0, entry = 0;
+struct BorderHessian {  // by an unknown of the border and another (`slot` -1), or a slot's derivative
+  int unknown = 0, other = -1, slot = -1, derivative = 0, entry = 0;
 };
 
 // Where an output of a summed batch goes.
@@ -75,8 +77,8 @@ struct Batch {
   std::vector<int> chunks;  // samples [chunks[k], chunks[k+1]) touch the same coefficients
   std::vector<JacobianBlock> jacobian;
   std::vector<HessianBlock> hessian;
-  std::vector<FunctionalJacobian> functional_jacobian;
-  std::vector<FunctionalHessian> functional_hessian;
+  std::vector<BorderJacobian> border_jacobian;
+  std::vector<BorderHessian> border_hessian;
 
   bool summed() const { return first_row < 0; }
   int outputs() const { return static_cast<int>(program->values.size()); }
@@ -84,18 +86,29 @@ struct Batch {
   const BasisValues& basis(const Slot& slot, int sample) const { return tables[slot.table][sample]; }
 };
 
+// Rows that count only while a condition on the motion holds (`when`).  The batch has one output a row of the others'.
+struct Conditional {
+  Batch condition;    // summed, without targets: only its values are wanted
+  int output = 0;     // of the condition's program
+  int first_row = 0;  // rows first_row + s * rows ... belong to sample s
+  int rows = 0;       // a sample
+};
+
 struct Transcription {
   const Problem* problem = nullptr;
   Constants constants;
-  std::vector<int> first;  // the first unknown of each degree of freedom, then that of the functionals, then the end
+  std::vector<int> first;  // first unknown of each degree of freedom, of the functionals, of the parameters; the end
+  std::vector<double> lower, upper;  // of each unknown, infinite where there is none
   std::vector<Row> rows;
   std::vector<Batch> batches;
+  std::vector<Conditional> conditionals;
   std::map<std::string, Evaluator> evaluators;  // by program
 
   int dofs() const { return static_cast<int>(problem->dofs.size()); }
   int functionals() const { return static_cast<int>(problem->functionals.size()); }
   int first_functional() const { return first[dofs()]; }
-  int unknowns() const { return first[dofs() + 1]; }
+  int first_parameter() const { return first[dofs() + 1]; }
+  int unknowns() const { return first[dofs() + 2]; }
 };
 
 // The problem must be valid (protocol reads only such) and outlive the transcription.  Throws InputError where a

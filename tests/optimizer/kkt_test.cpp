@@ -32,7 +32,18 @@ struct System : Evaluated {
     add_curvature(Eigen::VectorXd::Zero(rows()));
   }
 
-  std::optional<Kkt::Step> step() { return kkt.step(linear, -(linear.gradient + rows_placed(residual())), 0); }
+  // Soft rows give way by 1/w.
+  Eigen::VectorXd diagonal() const {
+    Eigen::VectorXd compliance = Eigen::VectorXd::Zero(rows());
+    for (int r = 0; r < rows(); ++r) {
+      if (t.rows[r].kind == Row::Kind::soft) compliance[r] = -1 / t.rows[r].weight;
+    }
+    return rows_placed(compliance);
+  }
+
+  std::optional<Kkt::Step> step(double hint = 0) {
+    return kkt.step(linear, diagonal(), -(linear.gradient + rows_placed(residual())), hint);
+  }
 
   Kkt kkt;
 };
@@ -148,7 +159,7 @@ TEST(Kkt, CurvatureIsCorrectedUntilTheStepDescends) {
   EXPECT_LT(s.gradient().dot(d), 0);
   EXPECT_TRUE(d.allFinite());
   // A hint near what was needed is enough, and is not overshot by far.
-  const auto again = s.kkt.step(s.linear, -(s.linear.gradient + s.rows_placed(s.residual())), step->shift);
+  const auto again = s.step(step->shift);
   ASSERT_TRUE(again);
   EXPECT_GT(again->shift, 0);
   EXPECT_LE(again->shift, 3 * step->shift);
@@ -184,15 +195,15 @@ TEST(Kkt, FeasibilityStepsAreTheSmallest) {
       head + "constrain x*y = 1 over [0, 1] every 0.25\nconstrain y' = 0 at 0.5\nconstrain x = 1 at 0 weight 9\n");
   System s(problem);
   const Eigen::VectorXd hard = s.residual().head(6);
-  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, 1e-12));
   Eigen::VectorXd right = Eigen::VectorXd::Zero(s.rows());
   right.head(6) = -hard;
+  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), 1e-12));
   const auto solution = s.kkt.solve(s.rows_placed(right));
   ASSERT_TRUE(solution);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> orthogonal(s.jacobian().topRows(6));
   EXPECT_LE(difference(s.of_unknowns(*solution), orthogonal.solve(-hard)), 1e-8);
   // Damping shortens it.
-  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, 10));
+  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), 10));
   const auto damped = s.kkt.solve(s.rows_placed(right));
   ASSERT_TRUE(damped);
   EXPECT_LT(s.of_unknowns(*damped).norm(), 0.3 * s.of_unknowns(*solution).norm());
