@@ -59,9 +59,8 @@ Outcome outcome_of(StepResult result, const Transcription& t, const NewtonState&
   const std::string worst = worst_of(violations(t, state.values));
   switch (result) {
     case StepResult::converged:
-      return {Status::converged, fmt::format("Converged: hard constraints hold and the gradient of the Lagrangian "
-                                             "vanishes to {:.3g}.",
-                                             tolerance)};
+      return {Status::converged,
+              fmt::format("Hard constraints hold, and the gradient of the Lagrangian vanishes, to {:.3g}.", tolerance)};
     case StepResult::infeasible:
       return {Status::infeasible,
               "No motion near this one satisfies every hard constraint, and no change reduces the violation: " + worst +
@@ -195,6 +194,9 @@ class Runner {
       motion.dofs.push_back({problem_.dofs[dof].name,
                              problem_.dofs[dof].basis,
                              {x.begin() + t_.first[dof], x.begin() + t_.first[dof + 1]}});
+    }
+    for (std::size_t k = 0; k < problem_.parameters.size(); ++k) {
+      motion.parameters.emplace_back(problem_.parameters[k].name, x[t_.first_parameter() + k]);
     }
     for (const Constant& constant : problem_.constants) {
       motion.constants.emplace_back(constant.name, t_.constants.at(constant.name));
