@@ -36,7 +36,7 @@ struct Arguments {
   std::optional<double> tolerance;
   std::optional<int> iterations;
   std::vector<std::string> show;
-  bool quiet = false;
+  bool record = false, quiet = false;
 };
 
 int exit_code(Status status) {
@@ -59,12 +59,13 @@ int solve(const Arguments& arguments) {
   options.tolerance = arguments.tolerance;
   options.iterations = arguments.iterations;
   options.frames_per_second = arguments.samples;
+  options.record = arguments.record;
   options.interrupted = [] { return interrupts > 0; };
   std::vector<optimizer::Show> shows;
   for (const std::string& text : arguments.show) shows.push_back(optimizer::parse_show(problem, text));
   if (!arguments.quiet) {
     std::cerr << optimizer::question(problem) << optimizer::heading();
-    options.progress = [](const optimizer::Progress& progress) { std::cerr << optimizer::line(progress); };
+    options.progress = [](const IterationRecord& progress) { std::cerr << optimizer::line(progress); };
   }
 
   struct sigaction action {};
@@ -107,6 +108,7 @@ int main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--show", arguments.show,
                       "NAME@TIME: tell a plotted expression at a time (seconds, or a constant's name) in the summary");
+  command->add_flag("--record", arguments.record, "Also write the record of all iterations");
   command->add_flag("-q,--quiet", arguments.quiet, "No table of iterations and no summary on standard error");
 
   try {

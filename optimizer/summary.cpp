@@ -52,7 +52,7 @@ std::string question(const Problem& problem) {
 
 std::string heading() { return "iteration      objective   violation   gradient       step      shift   seconds\n"; }
 
-std::string line(const Progress& p) {
+std::string line(const IterationRecord& p) {
   return fmt::format("{:9d} {:14.8g} {:11.2e} {:10.2e} {:10.2e} {:10.1e} {:9.3f}\n", p.iteration, p.objective,
                      p.violation, p.stationarity, p.step, p.shift, p.seconds);
 }

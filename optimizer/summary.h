@@ -16,7 +16,7 @@ std::string question(const Problem& problem);
 // The live table: a heading, then one line an iteration; on a terminal a run of many iterations stays readable because
 // each line is complete by itself.
 std::string heading();
-std::string line(const Progress& progress);
+std::string line(const IterationRecord& progress);
 
 // An expression to tell of in the summary: a plot's name and a time, in seconds or by a constant's name.
 struct Show {

@@ -1,0 +1,112 @@
+#include "optimizer/edit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/diagnostic.h"
+#include "optimizer/constants.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+template <class List>
+auto* find(List& list, const std::string& name) {
+  const auto found = std::ranges::find_if(list, [&](const auto& s) { return s.name == name && !s.replacement; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void unknown(const std::string& name) {
+  throw InputError(fmt::format("there is no constraint and no objective term '{}'", name));
+}
+
+void require_statement(const Problem& problem, const std::string& name) {
+  if (!find(problem.constraints, name) && !find(problem.objective, name)) unknown(name);
+}
+
+}  // namespace
+
+void apply(Edited& edited, const SetConstant& set) {
+  Problem& problem = edited.problem;
+  const auto found = std::ranges::find(problem.constants, set.constant, &Constant::name);
+  if (found == problem.constants.end()) throw InputError(fmt::format("there is no constant '{}'", set.constant));
+  if (found->frozen) {
+    throw InputError(
+        fmt::format("'{}' cannot be set: line {} froze it, because the number of unknowns or instances "
+                    "follows from it. Edit the scene instead",
+                    set.constant, found->frozen->line));
+  }
+  found->value = {evaluate(problem, evaluate_constants(problem), set.value, "set " + set.constant), {}, 0};
+}
+
+void apply(Edited& edited, const SetWeight& weight) {
+  if (Constraint* constraint = find(edited.problem.constraints, weight.name)) {
+    constraint->weight = weight.weight;
+  } else if (Term* term = find(edited.problem.objective, weight.name)) {
+    if (!weight.weight)
+      throw InputError(fmt::format("the weight of the objective term '{}' must be finite", weight.name));
+    term->weight = *weight.weight;
+  } else {
+    unknown(weight.name);
+  }
+}
+
+void apply(Edited& edited, const Enable& enable) {
+  require_statement(edited.problem, enable.name);
+  edited.disabled.erase(enable.name);
+}
+
+void apply(Edited& edited, const Disable& disable) {
+  require_statement(edited.problem, disable.name);
+  edited.disabled.insert(disable.name);
+}
+
+void apply(Edited& edited, const Delete& remove) {
+  require_statement(edited.problem, remove.name);
+  const auto is_it = [&](const auto& statement) { return statement.name == remove.name && !statement.replacement; };
+  // Replacements in waiting are found by index: what stands before them must keep its place.
+  for (auto& constraint : edited.problem.constraints) {
+    if (is_it(constraint)) constraint.replacement = true;
+  }
+  for (auto& term : edited.problem.objective) {
+    if (is_it(term)) term.replacement = true;
+  }
+}
+
+void apply(Edited& edited, const Replace& replace) {
+  const auto put = [&](auto& list) {
+    auto* old = find(list, replace.name);
+    if (!old) return false;
+    const auto place = *old;
+    *old = list.at(replace.with);
+    old->name = place.name;
+    old->since = place.since;
+    old->replacement = false;
+    return true;
+  };
+  if (!put(edited.problem.constraints) && !put(edited.problem.objective)) unknown(replace.name);
+}
+
+void apply(Edited& edited, const Rescope& scope) {
+  Constraint* constraint = find(edited.problem.constraints, scope.name);
+  if (!constraint) throw InputError(fmt::format("there is no constraint '{}'", scope.name));
+  constraint->scope = scope.scope;
+}
+
+void apply(Edited& edited, const Bound& bound) {
+  const auto found = std::ranges::find(edited.problem.dofs, bound.dof, &Dof::name);
+  if (found == edited.problem.dofs.end())
+    throw InputError(fmt::format("there is no degree of freedom '{}'", bound.dof));
+  found->lower = bound.lower;
+  found->upper = bound.upper;
+}
+
+Problem in_effect(const Edited& edited, int action) {
+  Problem problem = edited.problem;
+  const auto out = [&](const auto& s) { return s.replacement || s.since > action || edited.disabled.contains(s.name); };
+  std::erase_if(problem.constraints, out);
+  std::erase_if(problem.objective, out);
+  return problem;
+}
+
+}  // namespace spacetime::optimizer

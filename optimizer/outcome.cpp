@@ -1,0 +1,105 @@
+#include "optimizer/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/bspline.h"
+
+namespace spacetime::optimizer {
+
+std::vector<Violation> violations(const Transcription& t, std::span<const double> x, const Values& values) {
+  std::vector<Violation> result;
+  std::vector<int> of_constraint(t.problem->constraints.size(), -1);
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    const Row& row = t.rows[r];
+    if (row.kind != Row::Kind::hard) continue;
+    int& index = of_constraint[row.statement];
+    if (index < 0) {
+      const Constraint& constraint = t.problem->constraints[row.statement];
+      index = static_cast<int>(result.size());
+      result.push_back({constraint.name, 0, std::nullopt, constraint.place.line});
+      if (!std::isnan(row.time)) result.back().time = row.time;
+    }
+    const double amount = std::abs(excess(row, values.residual[r]));
+    if (!(amount <= result[index].max)) {
+      result[index].max = amount;
+      if (!std::isnan(row.time)) result[index].time = row.time;
+    }
+  }
+  for (int k = 0; k < t.dofs(); ++k) {
+    const Dof& dof = t.problem->dofs[k];
+    if (!dof.lower && !dof.upper) continue;
+    const auto times = greville(dof.basis);
+    Violation bound{dof.name, 0, times.front(), dof.place.line};
+    for (int u = t.first[k]; u < t.first[k + 1]; ++u) {
+      const double amount = std::max(t.lower[u] - x[u], x[u] - t.upper[u]);
+      if (amount > bound.max) {
+        bound.max = amount;
+        bound.time = times[u - t.first[k]];
+      }
+    }
+    result.push_back(std::move(bound));
+  }
+  return result;
+}
+
+std::string worst_of(const std::vector<Violation>& all) {
+  const auto worst = std::ranges::max_element(all, {}, &Violation::max);
+  if (worst == all.end() || worst->max == 0) return "every hard constraint holds";
+  std::string text = fmt::format("'{}' (line {}) is off by {:.3g}", worst->name, worst->line, worst->max);
+  if (worst->time) text += fmt::format(" at {:.4g} s", *worst->time);
+  return text;
+}
+
+Outcome outcome_of(StepResult result, const Transcription& t, const NewtonState& state, double tolerance) {
+  const std::string worst = worst_of(violations(t, state.x, state.values));
+  switch (result) {
+    case StepResult::converged:
+      return {Status::converged,
+              fmt::format("Hard constraints hold, and the gradient of the Lagrangian vanishes, to {:.3g}.", tolerance)};
+    case StepResult::infeasible:
+      return {Status::infeasible,
+              "No motion near this one satisfies every hard constraint, and no change reduces the violation: " + worst +
+                  ". Relax a constraint, give it a weight, or start from another sketch."};
+    case StepResult::not_finite:
+      return {Status::failed,
+              "The objective or a constraint is not a finite number along this motion. Start from another sketch, or "
+              "keep arguments of sqrt, log and divisions away from zero."};
+    case StepResult::singular:
+      return {Status::failed,
+              "The equations of the step could not be solved however strongly they were regularised; " + worst + "."};
+    case StepResult::exhausted:
+      return {Status::stopped,
+              fmt::format("Rounding hides any further progress: the gradient of the Lagrangian is down "
+                          "to {:.3g} of the objective's; {}.",
+                          state.measures.stationarity, worst)};
+    case StepResult::stepped:
+      break;
+  }
+  return {Status::stopped, ""};
+}
+
+void measure(const Transcription& t, std::span<const double> x, const Values& values, Motion& motion) {
+  const Problem& problem = *t.problem;
+  motion.objective = values.objective;
+  for (std::size_t k = 0; k < problem.objective.size(); ++k) {
+    motion.terms.emplace_back(problem.objective[k].name, values.terms[k]);
+  }
+  std::vector<double> sums(problem.constraints.size(), 0.0);
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    if (t.rows[r].kind != Row::Kind::soft) continue;
+    const double amount = excess(t.rows[r], values.residual[r]);
+    sums[t.rows[r].statement] += t.rows[r].weight / 2 * amount * amount;
+  }
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (problem.constraints[k].weight) motion.terms.emplace_back(problem.constraints[k].name, sums[k]);
+  }
+  motion.violations = violations(t, x, values);
+  for (const Violation& violation : motion.violations) {
+    if (!(violation.max <= motion.violation)) motion.violation = violation.max;
+  }
+}
+
+}  // namespace spacetime::optimizer
