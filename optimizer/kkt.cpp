@@ -59,8 +59,9 @@ Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::Vect
       if (jacobian.border(i, j) != 0) visit(jacobian.n + i, j, jacobian.border(i, j));
     }
   }
-  const double floor = row_floor * std::max(sizes.maxCoeff(), 1e-300);
-  return sizes.cwiseMax(floor);
+  // Without any gradient there is nothing to compare with.
+  const double largest = sizes.maxCoeff();
+  return sizes.cwiseMax(largest > 0 ? row_floor * largest : 1.0);
 }
 
 // The matrix without shift and regularisation, and what regularisation is to be.
