@@ -1,17 +1,23 @@
 #include "symbolic/elimination.h"
 
 #include <algorithm>
+#include <limits>
 #include <queue>
+#include <ranges>
 #include <tuple>
 
 namespace spacetime::symbolic {
 namespace {
 
-// How long vertices wait, found by search over planar and spatial arms and trees of links; the result is flat around
-// these values.  A curved vertex spreads its curvature over all pairs below it; what is done in a linear combination
-// of inputs need not be done in each of them.
-constexpr std::uint64_t curved_waits = 8;
-constexpr std::uint64_t linear_waits = 16;
+// The weights of cost(), found by search over planar and spatial arms and trees of links; the result is flat around
+// them.  A weight that is new will be multiplied again and one that goes will not, unless it is a constant.  A curved
+// vertex waits, for it spreads its curvature over all pairs below it.  A linear combination of inputs waits, for what
+// is done in it need not be done in each of them.
+constexpr std::int64_t new_weight = 6;
+constexpr std::int64_t weight_gone = 4;
+constexpr std::int64_t curved_waits = 8;
+constexpr std::int64_t linear_waits = 16;
+constexpr std::int64_t most_counted = 4096;  // beyond so many products all are taken to be new
 
 }  // namespace
 
@@ -116,11 +122,39 @@ void Elimination::add_beside(std::uint32_t u, std::uint32_t v, Weight weight) {
   }
 }
 
-std::uint64_t Elimination::cost(std::uint32_t v) const {
+// How many weights eliminating v would make that are not there yet.
+std::int64_t Elimination::fill(std::uint32_t v) {
   const auto& vertex = vertices_[v];
-  const std::uint64_t below = vertex.below_count, others = vertex.above_count + vertex.interacts_count;
-  return below * others + (vertex.curvature.is_zero() ? 0 : curved_waits * below * below) +
-         (vertex.linear ? linear_waits : 0);
+  const auto is_here = [&](const Link& link) { return !vertices_[link.vertex].gone; };
+  std::int64_t count = 0;
+  for (const auto& w : vertex.above | std::views::filter(is_here)) {
+    open_below(w.vertex);
+    for (const auto& u : vertex.below | std::views::filter(is_here)) count += place_[u.vertex] == 0 ? 1 : 0;
+    close();
+  }
+  const bool curved = !vertex.curvature.is_zero();
+  for (const auto& u : vertex.below | std::views::filter(is_here)) {
+    open_beside(u.vertex, vertex);
+    place_[u.vertex] = vertices_[u.vertex].curvature.is_zero() ? 0 : 1;
+    for (const auto& x : vertex.interacts | std::views::filter(is_here)) count += place_[x.vertex] == 0 ? 1 : 0;
+    for (const auto& x : vertex.below | std::views::filter(is_here)) {
+      if (curved && x.vertex <= u.vertex && place_[x.vertex] == 0) ++count;
+    }
+    place_[u.vertex] = 0;
+    close();
+  }
+  return count;
+}
+
+std::int64_t Elimination::cost(std::uint32_t v) {
+  const auto& vertex = vertices_[v];
+  const std::int64_t below = vertex.below_count, others = vertex.above_count + vertex.interacts_count;
+  std::int64_t constants = 0;
+  for (const auto& u : vertex.below)
+    constants += guards_.is_constant(weights_[u.weight]) && !vertices_[u.vertex].gone ? 1 : 0;
+  const auto products = below * others;
+  return products + new_weight * (products > most_counted ? products : fill(v)) - weight_gone * (others - constants) +
+         (vertex.curvature.is_zero() ? 0 : curved_waits * below * below) + (vertex.linear ? linear_waits : 0);
 }
 
 void Elimination::compact(std::vector<Link>& links) const {
@@ -162,19 +196,20 @@ void Elimination::remove(std::uint32_t v) {
 }
 
 void Elimination::eliminate(std::span<const std::uint32_t> vertices) {
-  using Candidate = std::tuple<std::uint64_t, std::uint32_t>;  // cost, then operands first
+  using Candidate = std::tuple<std::int64_t, std::uint32_t>;  // cost, then (inverted) the newest first
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   std::vector<std::uint8_t> wanted(vertices_.size());
-  std::vector<std::uint64_t> offered(vertices_.size(), ~std::uint64_t{0});
+  std::vector<std::int64_t> offered(vertices_.size(), std::numeric_limits<std::int64_t>::max());
   const auto offer = [&](std::uint32_t v) {
     if (!wanted[v] || vertices_[v].gone) return;
     const auto now = cost(v);
-    if (now != offered[v]) queue.emplace(offered[v] = now, v);
+    if (now != offered[v]) queue.emplace(offered[v] = now, ~v);
   };
   for (const auto v : vertices) wanted[v] = 1;
   for (const auto v : vertices) offer(v);
   while (!queue.empty()) {
-    const auto [known, v] = queue.top();
+    const auto [known, inverted] = queue.top();
+    const auto v = ~inverted;
     queue.pop();
     if (vertices_[v].gone || offered[v] != known) continue;  // an offer that has been overtaken
     remove(v);

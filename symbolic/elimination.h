@@ -60,7 +60,8 @@ class Elimination {
     bool linear = false, gone = false;
   };
 
-  std::uint64_t cost(std::uint32_t v) const;
+  std::int64_t fill(std::uint32_t v);
+  std::int64_t cost(std::uint32_t v);
   void remove(std::uint32_t v);
   void compact(std::vector<Link>& links) const;
   // Opens a vertex's row: notes where the weights of its neighbours are, for add_below and add_beside.

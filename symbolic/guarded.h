@@ -28,6 +28,7 @@ class Guards {
   Weight times(Weight x, Weight y);
   Weight plus(Weight x, Weight y);
   Weight negated(Weight x);
+  bool is_constant(Weight x) const { return x.list == 0 && graph_.constant(x.plain).has_value(); }
   // The weight as an expression: conditions selected.
   Expr total(Weight x);
 
