@@ -18,17 +18,12 @@ std::vector<std::string> link_names(const Creature& creature) {
   return out;
 }
 
-Vector3 vector_of(const std::vector<Fixed>& components) {
-  return {components[0].expr, components[1].expr, components[2].expr};
-}
-
 void add_gravity(Model& model, Creature& creature, const GravityDeclaration& gravity, std::optional<Span>& seen) {
   if (seen)
     return report(model, gravity.span, "a creature has one 'gravity': remove one of them",
                   {{*seen, "the first is here"}});
   seen = gravity.span;
-  if (const auto value = elaborate_fixed_tuple(model, gravity.value, 3, "gravity"))
-    creature.linkage.gravity = vector_of(*value);
+  if (const auto value = elaborate_still_vector(model, gravity.value, "gravity")) creature.linkage.gravity = *value;
 }
 
 void add_point(Model& model, Creature& creature, const PointDeclaration& declaration) {
@@ -37,8 +32,7 @@ void add_point(Model& model, Creature& creature, const PointDeclaration& declara
   declare_member(model, creature, declaration.name);
   const auto link = find_link(model, creature, declaration.link);
   if (link == -1) report(model, declaration.link.span, "a point sits on a link, not on the ground");
-  const auto position = elaborate_fixed_tuple(model, declaration.position, 3, "a point's position");
-  if (position) point.position = vector_of(*position);
+  point.position = elaborate_still_vector(model, declaration.position, "a point's position").value_or(Vector3{});
   point.link = std::max(0, link.value_or(0));
   if (link && *link >= 0)
     creature.points.push_back(point);

@@ -17,6 +17,7 @@ bool elaborate_knots(Model& model, NodeId list, std::vector<double>& knots) {
   for (const NodeId id : node.operands) {
     const auto knot = elaborate_fixed(model, id, "a knot");
     if (!knot) return false;
+    freeze(model, knot->expr, model.scene.nodes[id].span, "trajectory");
     if (!knots.empty() && knot->value <= knots.back())
       return report(model, model.scene.nodes[id].span, "knots must rise from one to the next"), false;
     knots.push_back(knot->value);
@@ -27,6 +28,9 @@ bool elaborate_knots(Model& model, NodeId list, std::vector<double>& knots) {
   return false;
 }
 
+// The wavelets of the boundaries need 8 spans (the pyramid's lowest level); 2^16 spans are within most_spans.
+constexpr int least_level = 3, most_level = 16;
+
 }  // namespace
 
 int add_dof(Model& model, const Name& name, std::optional<NodeId> start, const std::optional<Interval>& bounds) {
@@ -34,12 +38,15 @@ int add_dof(Model& model, const Name& name, std::optional<NodeId> start, const s
   Dof dof;
   dof.name = name.text;
   dof.place = place_of(name.span);
-  if (start)
-    if (const auto value = elaborate_fixed(model, *start, "a start value")) dof.start = quantity(model, value->expr);
-  if (bounds) report(model, bounds->span, "bounds are not built yet: leave out 'in [ , ]'");
+  std::optional<Fixed> value;
+  if (start) value = elaborate_fixed(model, *start, "a start value");
+  if (value) dof.start = quantity(model, value->expr);
+  if (bounds)
+    if (const auto both = elaborate_bounds(model, *bounds, value)) dof.lower = both->lower, dof.upper = both->upper;
   model.problem.dofs.push_back(std::move(dof));
   model.dof_trajectory.push_back(model.trajectory);
   model.dof_span.push_back(name.span);
+  model.dof_bounds.push_back(bounds ? std::optional(bounds->span) : std::nullopt);
   model.dof_index.try_emplace(name.text, index);
   return index;
 }
@@ -54,9 +61,12 @@ void elaborate_trajectory(Model& model, const TrajectoryDeclaration& declaration
   Trajectories trajectories;
   trajectories.span = span;
   if (declaration.kind == Kind::wavelet) {
-    report(model, span, "wavelet trajectories are not built yet: write 'trajectory bspline spans ...'");
+    const auto level = elaborate_count(model, declaration.argument, "the level", least_level, most_level);
+    if (level) report(model, span, "wavelet trajectories are not built yet: write 'trajectory bspline spans ...'");
   } else if (declaration.kind == Kind::spans) {
-    trajectories.spans = elaborate_count(model, declaration.argument, "the number of spans", 1, most_spans).value_or(1);
+    const auto spans = elaborate_count(model, declaration.argument, "the number of spans", 1, most_spans);
+    trajectories.spans = spans ? spans->value : 1;
+    if (spans) freeze(model, spans->expr, span, "trajectory");
   } else {
     trajectories.span = model.scene.nodes[declaration.argument].span;
     if (!elaborate_knots(model, declaration.argument, trajectories.knots)) trajectories.knots.clear();

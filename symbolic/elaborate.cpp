@@ -1,6 +1,10 @@
+#include "symbolic/action.h"
+#include "symbolic/define.h"
 #include "symbolic/dof.h"
+#include "symbolic/eliminate.h"
 #include "symbolic/expression.h"
 #include "symbolic/names.h"
+#include "symbolic/quoted.h"
 #include "symbolic/scope.h"
 #include "symbolic/statement.h"
 
@@ -15,6 +19,8 @@ void elaborate_time_span(Model& model, const TimeDeclaration& declaration, const
   const auto to = elaborate_fixed(model, declaration.time.to, "the time's end");
   if (!from || !to) return;
   if (!(from->value < to->value)) return report(model, declaration.time.span, "the time must end later than it starts");
+  freeze(model, from->expr, span, "time");
+  freeze(model, to->expr, span, "time");
   model.problem.start = from->value;
   model.problem.end = to->value;
   model.time_known = true;
@@ -27,9 +33,30 @@ void elaborate_constant(Model& model, const ConstantDeclaration& declaration) {
     model.problem.constants.push_back(
         {declaration.name.text, quantity(model, value->expr), place_of(declaration.name.span)});
     model.facts.set_constant(declaration.name.text, value->value);
+    model.constants.emplace_back(declaration.name.text, value->expr);
     symbol.kind = Symbol::Kind::constant;
     symbol.value = {Value::Kind::numbers, {model.graph.input({InputKind::constant, declaration.name.text, 0, 0})}};
   }
+  declare(model, declaration.name, symbol);
+}
+
+void elaborate_parameter(Model& model, const ParameterDeclaration& declaration) {
+  Parameter out;
+  out.name = declaration.name.text;
+  out.place = place_of(declaration.name.span);
+  const auto start = elaborate_fixed(model, declaration.start, "a parameter's start value");
+  if (declaration.bounds)
+    if (const auto bounds = elaborate_bounds(model, *declaration.bounds, start))
+      out.lower = bounds->lower, out.upper = bounds->upper;
+  Symbol symbol;
+  if (start) {
+    const Expr input = model.graph.input({InputKind::parameter, declaration.name.text, 0, 0});
+    out.start = quantity(model, start->expr);
+    model.parameter_starts.try_emplace(input, start->expr);
+    symbol.kind = Symbol::Kind::parameter;
+    symbol.value = {Value::Kind::numbers, {input}};
+  }
+  model.problem.parameters.push_back(std::move(out));
   declare(model, declaration.name, symbol);
 }
 
@@ -46,15 +73,10 @@ void elaborate_let(Model& model, const LetDeclaration& declaration) {
   Symbol symbol;
   if (auto components = elaborate_numbers(model, declaration.value, "a 'let'")) {
     symbol.kind = Symbol::Kind::let;
+    model.lets.emplace_back(declaration.name.text, *components);
     symbol.value = {Value::Kind::numbers, std::move(*components)};
-    model.lets.push_back(declaration.name.text);
   }
   declare(model, declaration.name, symbol);
-}
-
-void refuse(Model& model, const Statement& statement, const Name& name, std::string message) {
-  report(model, statement.span, std::move(message));
-  declare(model, name, {});
 }
 
 void damaged(Model& model, const Statement& statement, const Damaged& what) {
@@ -63,6 +85,12 @@ void damaged(Model& model, const Statement& statement, const Damaged& what) {
   if (statement.word == "trajectory") {
     model.trajectory = static_cast<int>(model.trajectories.size());
     model.trajectories.push_back({statement.span, 1, {}});
+  }
+  if (what.statement) {
+    Named named;
+    named.span = what.statement->span;
+    named.lost = true;
+    model.statement_names.try_emplace(what.statement->text, named);
   }
   if (what.name && !model.symbols.contains(what.name->text) && !is_reserved(what.name->text))
     declare(model, *what.name, {});
@@ -75,44 +103,41 @@ struct Elaborator {
   void operator()(const Damaged& d) const { damaged(model, statement, d); }
   void operator()(const TimeDeclaration& d) const { elaborate_time_span(model, d, statement.span); }
   void operator()(const ConstantDeclaration& d) const { elaborate_constant(model, d); }
-  void operator()(const ParameterDeclaration& d) const {
-    refuse(model, statement, d.name,
-           "parameters are not built yet: write 'constant', or 'dof' for what changes in time");
-  }
+  void operator()(const ParameterDeclaration& d) const { elaborate_parameter(model, d); }
   void operator()(const TrajectoryDeclaration& d) const { elaborate_trajectory(model, d, statement.span); }
   void operator()(const DofDeclaration& d) const { elaborate_dof(model, d); }
   void operator()(const LetDeclaration& d) const { elaborate_let(model, d); }
-  void operator()(const DefineDeclaration& d) const {
-    refuse(model, statement, d.name,
-           "functions of one's own are not built yet: write the expression out, or use 'let'");
-  }
-  void operator()(const EliminateDeclaration&) const {
-    report(model, statement.span, "'eliminate' is not built yet: constrain the degree of freedom instead");
-  }
+  void operator()(const DefineDeclaration& d) const { elaborate_define(model, d); }
+  void operator()(const EliminateDeclaration& d) const { elaborate_eliminate(model, d, statement.span); }
   void operator()(const CreatureDeclaration& d) const { elaborate_creature(model, d, statement.span); }
-  void operator()(const ScriptDeclaration& d) const {
-    refuse(model, statement, d.name, "scripted bodies are not built yet: write the motion as expressions of t");
-  }
+  void operator()(const ScriptDeclaration& d) const { elaborate_script(model, d, statement.span); }
   void operator()(const ConstrainDeclaration& d) const { elaborate_constraint(model, d, statement.span); }
   void operator()(const MinimizeDeclaration& d) const { elaborate_objective(model, d, statement.span); }
   void operator()(const KeyframeDeclaration& d) const { elaborate_keyframe(model, d, statement.span); }
-  template <class Action>
-  void operator()(const Action&) const {
-    elaborate_action(model, statement);
+  template <class Syntax>
+  void operator()(const Syntax& syntax) const {
+    if (!model.first_action) model.first_action = statement.span;
+    if (auto action = action_of(model, syntax))
+      model.problem.actions.push_back({std::move(*action), place_of(statement.span)});
   }
 };
 
-bool is_declaration(const Statement& statement) { return statement.what.index() >= 1 && statement.what.index() <= 13; }
-
-// Actions come last: the problem holds one set of declarations for all of them.
+// What the first action already needs cannot come behind it.
 void check_order(Model& model, const Statement& statement) {
-  if (std::holds_alternative<Damaged>(statement.what)) return;
-  if (!is_declaration(statement)) {
-    if (!model.first_action) model.first_action = statement.span;
-  } else if (model.first_action && !model.misplaced) {
-    model.misplaced = true;
-    report(model, statement.span, "declarations after an action are not built yet: move this one up",
+  if (!model.first_action) return;
+  const auto* trajectory = std::get_if<TrajectoryDeclaration>(&statement.what);
+  const bool bases = trajectory && !trajectory->names.empty();
+  if (bases || (std::holds_alternative<TimeDeclaration>(statement.what) && !model.time))
+    report(model, statement.span,
+           quoted(statement.word) + (bases ? " of degrees of freedom that are there already" : std::string()) +
+               " must stand before the first action: move it up",
            {{*model.first_action, "the first action is here"}});
+}
+
+void note_frozen(Model& model) {
+  for (Constant& constant : model.problem.constants) {
+    const auto frozen = model.frozen.find(constant.name);
+    if (frozen != model.frozen.end()) constant.frozen = place_of(frozen->second.span);
   }
 }
 
@@ -120,6 +145,7 @@ void check_order(Model& model, const Statement& statement) {
 
 void elaborate_scene(Model& model) {
   note_declarations(model);
+  note_eliminations(model);
   for (const Statement& statement : model.scene.statements) {
     check_order(model, statement);
     std::visit(Elaborator{model, statement}, statement.what);
@@ -129,9 +155,12 @@ void elaborate_scene(Model& model) {
            "the scene has no time: begin it with a line such as 'time [0, 2]'");
     return;
   }
+  remove_eliminated(model);
   make_bases(model);
   if (model.time_known) check_times(model);
+  if (model.diagnostics.empty()) check_coefficients(model);
   if (!model.diagnostics.empty()) return;
+  note_frozen(model);
   finish_objective(model);
   add_plots(model);
   add_bodies(model);

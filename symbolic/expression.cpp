@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "symbolic/define.h"
 #include "symbolic/derivative.h"
+#include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
 #include "symbolic/nearest.h"
 #include "symbolic/quoted.h"
+#include "symbolic/value.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -129,6 +133,7 @@ Value logic(Model& model, const Node& node, const std::vector<const Value*>& ope
 }
 
 Value prime(Model& model, const Node& node, const Value& operand) {
+  model.work += 4.0 * static_cast<double>(operand.components.size() * model.graph.size());
   if (!need_numbers(model, operand, model.scene.nodes[node.operands[0]].span, "what is differentiated")) return {};
   std::vector<Expr> out;
   for (const Expr e : operand.components) {
@@ -182,24 +187,14 @@ Value member(Model& model, const Node& node, const Value& operand) {
 }
 
 Value call(Model& model, const Node& node, const std::vector<Value>& arguments) {
-  const Function* function = function_named(node.text);
-  if (!function) {
-    const auto symbol = model.symbols.find(node.text);
-    if (symbol == model.symbols.end())
-      report(model, node.mark, "there is no function " + quoted(node.text) + suggestion(node.text, function_names()));
-    else if (symbol->second.kind != Symbol::Kind::lost)
-      report(model, node.mark, quoted(node.text) + " is no function: write '*' for a product");
-    return {};
-  }
-  if (arguments.size() < function->least || arguments.size() > function->most) {
-    report(model, node.mark,
-           quoted(node.text) + " is written " + std::string(function->usage) + ", but has " +
-               std::to_string(arguments.size()) + (arguments.size() == 1 ? " argument here" : " arguments here"));
-    return {};
-  }
   for (const Value& argument : arguments)
     if (argument.kind == Value::Kind::lost) return {};
-  return function->apply(model, *function, node, arguments);
+  const Function* function = function_named(node.text);
+  if (!function) return call_defined(model, node, arguments);
+  if (arguments.size() >= function->least && arguments.size() <= function->most)
+    return function->apply(model, *function, node, arguments);
+  report_arity(model, node, function->usage);
+  return {};
 }
 
 Value meaning(Model& model, const Node& node, const std::vector<Value>& values, NodeId first) {
@@ -249,6 +244,20 @@ Value meaning(Model& model, const Node& node, const std::vector<Value>& values, 
   return {};
 }
 
+// A scene can ask for more than any machine has: tuples of tuples, functions that call functions.  Units are about two
+// nanoseconds, so that a few seconds are allowed, and nodes take 64 bytes.
+constexpr double most_work = 1e9;
+constexpr std::size_t most_nodes = 4'000'000;
+constexpr double work_of_a_node = 200, work_of_a_component = 50;
+
+bool can_go_on(Model& model, const Node& node) {
+  if (model.work <= most_work && model.graph.size() <= most_nodes) return true;
+  if (!model.overworked)
+    report(model, node.span, "the scene's expressions are too large by here: make them of fewer components and calls");
+  model.overworked = true;
+  return false;
+}
+
 // "A constant expression that is not finite is an error."
 bool is_finite(Model& model, const Node& node, const Value& value) {
   for (const Expr e : value.components) {
@@ -273,10 +282,13 @@ Value elaborate(Model& model, NodeId root) {
   std::vector<Value> values;
   for (NodeId id = first; id <= root; ++id) {
     const Node& node = model.scene.nodes[id];
+    if (!can_go_on(model, node)) return {};
     Value value = meaning(model, node, values, first);
     if (!is_finite(model, node, value)) value = {};
+    model.work += work_of_a_node + work_of_a_component * static_cast<double>(value.components.size());
     values.push_back(std::move(value));
   }
+  note_uses(model, values.back().components, model.scene.nodes[root].span);
   return std::move(values.back());
 }
 
@@ -293,56 +305,113 @@ std::optional<std::vector<Expr>> elaborate_numbers(Model& model, NodeId root, st
 }
 
 namespace {
-std::optional<Fixed> fixed(Model& model, Expr e, const Span& span, std::string_view what) {
-  if (const auto known = model.facts.known(e)) return Fixed{e, *known};
-  report(model, span,
-         std::string(what) + " must be made of numbers and constants, but this depends on " +
-             (model.facts.moving(e)  ? "the motion"
-              : model.facts.timed(e) ? "time"
-                                     : "a functional"));
-  return std::nullopt;
+
+std::string dependence(Model& model, Expr e) {
+  return model.facts.moving(e)           ? "the motion"
+         : model.facts.timed(e)          ? "time"
+         : model.facts.has_functional(e) ? "a functional"
+                                         : "a parameter, which is not known before the motion is";
 }
+
 }  // namespace
 
 std::optional<Fixed> elaborate_fixed(Model& model, NodeId root, std::string_view what) {
   const auto e = elaborate_scalar(model, root, what);
   if (!e) return std::nullopt;
-  return fixed(model, *e, model.scene.nodes[root].span, what);
+  if (const auto known = model.facts.known(*e)) return Fixed{*e, *known};
+  report(model, model.scene.nodes[root].span,
+         std::string(what) + " must be made of numbers and constants, but this depends on " + dependence(model, *e));
+  return std::nullopt;
 }
 
-std::optional<std::vector<Fixed>> elaborate_fixed_tuple(Model& model, NodeId root, std::size_t size,
-                                                        std::string_view what) {
+bool is_still(Model& model, Expr e, const Span& span, std::string_view what) {
+  if (!model.facts.timed(e) && !model.facts.has_functional(e)) return true;
+  report(model, span,
+         std::string(what) + " must be made of numbers, constants and parameters, but this depends on " +
+             dependence(model, e));
+  return false;
+}
+
+std::optional<Expr> elaborate_still(Model& model, NodeId root, std::string_view what) {
+  const auto e = elaborate_scalar(model, root, what);
+  if (!e || !is_still(model, *e, model.scene.nodes[root].span, what)) return std::nullopt;
+  return e;
+}
+
+std::optional<Vector3> elaborate_still_vector(Model& model, NodeId root, std::string_view what) {
   const auto components = elaborate_numbers(model, root, what);
   if (!components) return std::nullopt;
   const Span& span = model.scene.nodes[root].span;
-  if (components->size() != size) {
-    report(model, span,
-           std::string(what) + " has " + std::to_string(size) + " components, but here are " +
-               std::to_string(components->size()));
+  if (components->size() != 3) {
+    report(model, span, std::string(what) + " has 3 components, but here are " + std::to_string(components->size()));
     return std::nullopt;
   }
-  std::vector<Fixed> out;
-  for (const Expr e : *components) {
-    const auto one = fixed(model, e, span, what);
-    if (!one) return std::nullopt;
-    out.push_back(*one);
-  }
-  return out;
+  for (const Expr e : *components)
+    if (!is_still(model, e, span, what)) return std::nullopt;
+  return Vector3{(*components)[0], (*components)[1], (*components)[2]};
 }
 
-std::optional<int> elaborate_count(Model& model, NodeId root, std::string_view what, int least, int most) {
+std::optional<Count> elaborate_count(Model& model, NodeId root, std::string_view what, int least, int most) {
   const auto number = elaborate_fixed(model, root, what);
   if (!number) return std::nullopt;
   if (number->value == std::floor(number->value) && number->value >= least && number->value <= most)
-    return static_cast<int>(number->value);
+    return Count{number->expr, static_cast<int>(number->value)};
   report(model, model.scene.nodes[root].span,
          std::string(what) + " must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return std::nullopt;
 }
 
+void freeze(Model& model, Expr e, const Span& span, std::string_view what) {
+  std::vector<Expr> pending{e};
+  while (!pending.empty()) {
+    const Expr next = pending.back();
+    pending.pop_back();
+    if (!model.facts.has_constant(next)) continue;
+    for (const std::string& name : constants_in(model, next)) {
+      if (!model.frozen.try_emplace(name, Frozen{span, std::string(what)}).second) continue;
+      for (const auto& [constant, value] : model.constants)
+        if (constant == name) pending.push_back(value);
+    }
+  }
+}
+
+std::vector<std::string> constants_in(Model& model, Expr e) {
+  std::vector<std::string> out;
+  if (!model.facts.has_constant(e)) return out;
+  model.work += static_cast<double>(model.graph.size());
+  const auto needed = reachable(model.graph, std::vector{e});
+  for (std::uint32_t id = 0; id < needed.size(); ++id)
+    if (needed[id] && model.graph.node({id}).kind == Graph::Kind::input &&
+        model.graph.input_of({id}).kind == InputKind::constant)
+      out.push_back(model.graph.input_of({id}).name);
+  return out;
+}
+
 Quantity quantity(Model& model, Expr e) {
   if (!model.facts.has_constant(e)) return {*model.facts.known(e), {}, 0};
   return {0, add_program(model, std::vector{e}, Derivatives::none), 0};
+}
+
+std::optional<Bounds> elaborate_bounds(Model& model, const Interval& bounds, std::optional<Fixed> start) {
+  const auto lower = elaborate_fixed(model, bounds.from, "a lower bound");
+  const auto upper = elaborate_fixed(model, bounds.to, "an upper bound");
+  if (!lower || !upper) return std::nullopt;
+  if (!(lower->value < upper->value)) {
+    report(model, bounds.span, "the upper bound must be greater than the lower one");
+    return std::nullopt;
+  }
+  if (start && (start->value < lower->value || start->value > upper->value)) {
+    report(model, bounds.span,
+           "the start value " + text_of(start->value) + " lies outside these bounds: choose another start");
+    return std::nullopt;
+  }
+  return Bounds{quantity(model, lower->expr), quantity(model, upper->expr)};
+}
+
+std::string text_of(double number) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%.6g", number);
+  return out;
 }
 
 }  // namespace spacetime::symbolic

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "symbolic/model.h"
+#include "symbolic/vector.h"
 
 namespace spacetime::symbolic {
 
@@ -23,13 +24,33 @@ struct Fixed {
   double value = 0;
 };
 std::optional<Fixed> elaborate_fixed(Model& model, NodeId root, std::string_view what);
-std::optional<std::vector<Fixed>> elaborate_fixed_tuple(Model& model, NodeId root, std::size_t size,
-                                                        std::string_view what);
-// A whole number in [least, most], frozen.
-std::optional<int> elaborate_count(Model& model, NodeId root, std::string_view what, int least, int most);
+// Made of numbers, constants and parameters: what does not move.
+std::optional<Expr> elaborate_still(Model& model, NodeId root, std::string_view what);
+bool is_still(Model& model, Expr e, const Span& span, std::string_view what);
+std::optional<Vector3> elaborate_still_vector(Model& model, NodeId root, std::string_view what);
+// A whole number in [least, most].
+struct Count {
+  Expr expr;
+  int value = 0;
+};
+std::optional<Count> elaborate_count(Model& model, NodeId root, std::string_view what, int least, int most);
+
+// The constants that stand in it.
+std::vector<std::string> constants_in(Model& model, Expr e);
+
+// From here on the constants in it cannot be set, because `what` has built in their values.
+void freeze(Model& model, Expr e, const Span& span, std::string_view what);
 
 // As the problem stores it.
 Quantity quantity(Model& model, Expr e);
+
+// [lo, hi] of a degree of freedom or a parameter.
+struct Bounds {
+  Quantity lower, upper;
+};
+std::optional<Bounds> elaborate_bounds(Model& model, const Interval& bounds, std::optional<Fixed> start = {});
+
+std::string text_of(double number);  // as messages write it
 
 std::string article(const Value& value);  // "a scalar", "a tuple of 3"
 

@@ -16,6 +16,7 @@ Facts::Fact Facts::fact_of_input(const Input& input) const {
     case InputKind::functional:
       return {functional, 0};
     case InputKind::parameter:
+      return {parameter, 0};
     case InputKind::multiplier:
       break;
   }

@@ -17,19 +17,25 @@ class Facts {
 
   // Before the constant's input is made; a name declared twice keeps its first value.
   void set_constant(const std::string& name, double value) { constants_.try_emplace(name, value); }
+  // From here on it is worth something else: everything known is found anew.
+  void change_constant(const std::string& name, double value) {
+    constants_[name] = value;
+    facts_.clear();
+  }
 
   // Depends on a degree of freedom or on time itself (what stands inside a functional does not count).
   bool timed(Expr e) { return (of(e).uses & (motion | clock)) != 0; }
   bool moving(Expr e) { return (of(e).uses & motion) != 0; }
   bool has_functional(Expr e) { return (of(e).uses & functional) != 0; }
   bool has_constant(Expr e) { return (of(e).uses & constant) != 0; }
+  bool has_parameter(Expr e) { return (of(e).uses & parameter) != 0; }
 
   // The value of what is made of numbers and constants, with the constants as declared; infinite or NaN where it has
   // none.  Nothing for everything else.
   std::optional<double> known(Expr e);
 
  private:
-  enum Use : std::uint8_t { constant = 1, motion = 2, clock = 4, functional = 8, unknown = 16 };
+  enum Use : std::uint8_t { constant = 1, motion = 2, clock = 4, functional = 8, parameter = 16, unknown = 32 };
   struct Fact {
     std::uint8_t uses = 0;
     double value = 0;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "symbolic/eliminate.h"
 #include "symbolic/expression.h"
 #include "symbolic/functional.h"
 #include "symbolic/quoted.h"
@@ -108,7 +109,8 @@ Value choice(Model& model, const Function& function, const Node& node, const Arg
 }
 
 // A tuple's functional is the tuple of its components' functionals.
-Value of_components(Model& model, FunctionalUse use, const std::vector<Expr>& components) {
+Value of_components(Model& model, const Node& node, FunctionalUse use, const std::vector<Expr>& components) {
+  note_uses(model, components, node.span);
   std::vector<Expr> out;
   for (const Expr e : components) {
     use.integrand = e;
@@ -124,7 +126,9 @@ std::optional<Expr> time_argument(Model& model, const Function& function, const 
   const Expr e = arguments[i].components[0];
   const auto known = model.facts.known(e);
   if (!known) {
-    report(model, span, ordinal(i, function.name) + " is a time: it must be made of numbers and constants");
+    report(model, span,
+           ordinal(i, function.name) + " is a time: it must be made of numbers and constants" +
+               (model.facts.has_parameter(e) ? ", not of a parameter" : ""));
     return std::nullopt;
   }
   model.time_checks.push_back({span, *known, "this time"});
@@ -148,7 +152,7 @@ Value integral(Model& model, const Function& function, const Node& node, const A
       return {};
     }
   }
-  return of_components(model, use, arguments[0].components);
+  return of_components(model, node, use, arguments[0].components);
 }
 
 Value at(Model& model, const Function& function, const Node& node, const Arguments& arguments) {
@@ -157,7 +161,7 @@ Value at(Model& model, const Function& function, const Node& node, const Argumen
   if (!need_numbers(model, arguments[0], span_of(model, node, 0), ordinal(0, function.name))) return {};
   use.from = time_argument(model, function, node, arguments, 1);
   if (!use.from) return {};
-  return of_components(model, use, arguments[0].components);
+  return of_components(model, node, use, arguments[0].components);
 }
 
 constexpr std::array<Function, 24> table{{

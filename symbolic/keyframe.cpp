@@ -1,3 +1,4 @@
+#include "symbolic/eliminate.h"
 #include "symbolic/expression.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"
@@ -6,8 +7,25 @@
 namespace spacetime::symbolic {
 namespace {
 
+// "arm.elbow" where the node is a name with or without dots; empty for everything else.
+std::string dotted(const Scene& scene, NodeId id) {
+  std::string tail;
+  while (scene.nodes[id].kind == Node::Kind::member) {
+    tail = "." + scene.nodes[id].text + tail;
+    id = scene.nodes[id].operands[0];
+  }
+  return scene.nodes[id].kind == Node::Kind::name ? scene.nodes[id].text + tail : std::string();
+}
+
+bool names_eliminated(Model& model, NodeId target) {
+  for (NodeId id = model.scene.nodes[target].first; id <= target; ++id)
+    if (is_eliminated(model, dotted(model.scene, id), model.scene.nodes[id].span)) return true;
+  return false;
+}
+
 // The degrees of freedom that stand on the left of a key: one, or a tuple of them.
 std::optional<std::vector<std::string>> keyed_dofs(Model& model, NodeId target) {
+  if (names_eliminated(model, target)) return std::nullopt;
   const auto components = elaborate_numbers(model, target, "what is keyed");
   if (!components) return std::nullopt;
   std::vector<std::string> out;
@@ -24,7 +42,8 @@ std::optional<std::vector<std::string>> keyed_dofs(Model& model, NodeId target) 
   return out;
 }
 
-void add_key(Model& model, const Assignment& assignment, std::optional<double> time, Keyframe& keyframe) {
+void add_key(Model& model, const Assignment& assignment, std::optional<double> time, Keyed& keyed,
+             std::vector<Key>& keys) {
   const auto dofs = keyed_dofs(model, assignment.target);
   const auto values = elaborate_numbers(model, assignment.value, "a key's value");
   if (!dofs || !values) return;
@@ -38,9 +57,9 @@ void add_key(Model& model, const Assignment& assignment, std::optional<double> t
     if (!model.facts.known(value))
       return report(model, model.scene.nodes[assignment.value].span,
                     "a key's value must be made of numbers and constants");
-    keyframe.keys.push_back({(*dofs)[i], quantity(model, value)});
+    keys.push_back({(*dofs)[i], quantity(model, value)});
     if (!time) continue;
-    const auto [it, fresh] = model.keyed.try_emplace({(*dofs)[i], *time}, span);
+    const auto [it, fresh] = keyed.try_emplace({(*dofs)[i], *time}, span);
     if (!fresh)
       report(model, span, quoted((*dofs)[i]) + " has two keys at this time: remove one of them",
              {{it->second, "the other is here"}});
@@ -49,14 +68,27 @@ void add_key(Model& model, const Assignment& assignment, std::optional<double> t
 
 }  // namespace
 
+std::vector<Key> elaborate_keys(Model& model, const std::vector<Assignment>& assignments, std::optional<double> time,
+                                Keyed& keyed) {
+  std::vector<Key> out;
+  for (const Assignment& assignment : assignments) add_key(model, assignment, time, keyed, out);
+  return out;
+}
+
 void elaborate_keyframe(Model& model, const KeyframeDeclaration& declaration, const Span& span) {
+  if (model.first_action)
+    return report(model, span,
+                  "a sketch is what the first action starts from: move this keyframe up, or write 'key' for the motion "
+                  "as it is here",
+                  {{*model.first_action, "the first action is here"}});
   Keyframe out;
   out.place = place_of(span);
-  const auto time = elaborate_time(model, declaration.time, "the keyframe's time");
-  if (time) out.time = *time;
   std::optional<double> now;
-  if (time) now = model.time_checks.back().time;
-  for (const Assignment& assignment : declaration.keys) add_key(model, assignment, now, out);
+  if (const auto time = elaborate_time(model, declaration.time, "the keyframe's time")) {
+    out.time = *time;
+    now = model.time_checks.back().time;
+  }
+  out.keys = elaborate_keys(model, declaration.keys, now, model.keyed);
   model.problem.keyframes.push_back(std::move(out));
 }
 

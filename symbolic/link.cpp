@@ -5,6 +5,7 @@
 
 #include "symbolic/dof.h"
 #include "symbolic/expression.h"
+#include "symbolic/functional.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {
@@ -53,8 +54,6 @@ const LinkItem* find_any(const Items& items, std::initializer_list<Kind> kinds) 
   return nullptr;
 }
 
-Vector3 vector_of(const std::vector<Fixed>& v) { return {v[0].expr, v[1].expr, v[2].expr}; }
-
 // Reports what lacks something else, unless that may have been lost.
 void report_lack(Model& model, const Items& items, const Span& span, std::string message) {
   if (!items.damaged) report(model, span, std::move(message));
@@ -64,15 +63,14 @@ void report_lack(Model& model, const Items& items, const Span& span, std::string
 Expr number(Model& model, const Items& items, Kind kind, std::string_view what) {
   const LinkItem* item = find(items, kind);
   if (!item) return model.graph.number(0);
-  const auto value = elaborate_fixed(model, *item->value, what);
-  return value ? value->expr : model.graph.number(0);
+  return elaborate_still(model, *item->value, what).value_or(model.graph.number(0));
 }
 
 std::optional<Vector3> vector3(Model& model, const Items& items, Kind kind, std::string_view what) {
   const LinkItem* item = find(items, kind);
   if (!item) return std::nullopt;
-  const auto value = elaborate_fixed_tuple(model, *item->value, 3, what);
-  return value ? vector_of(*value) : Vector3{model.graph.number(0), model.graph.number(0), model.graph.number(1)};
+  return elaborate_still_vector(model, *item->value, what)
+      .value_or(Vector3{model.graph.number(0), model.graph.number(0), model.graph.number(1)});
 }
 
 void set_geometry(Model& model, const Items& items, Link& link) {
@@ -134,11 +132,11 @@ void set_inertia(Model& model, const Items& items, Link& link) {
   if (components->size() != 3 && components->size() != 6)
     return report(model, model.scene.nodes[*item->value].span,
                   "an inertia has 3 components (ixx, iyy, izz), or 6 with (ixy, ixz, iyz)");
-  const auto fixed = elaborate_fixed_tuple(model, *item->value, components->size(), "an inertia");
-  if (!fixed) return;
-  for (std::size_t i = 0; i < fixed->size(); ++i) {
-    link.inertia[i] = (*fixed)[i].expr;
-    if (i < 3 && (*fixed)[i].value < 0)
+  for (std::size_t i = 0; i < components->size(); ++i) {
+    if (!is_still(model, (*components)[i], model.scene.nodes[*item->value].span, "an inertia")) return;
+    link.inertia[i] = (*components)[i];
+    const auto known = model.facts.known(link.inertia[i]);
+    if (i < 3 && known && *known < 0)
       return report(model, model.scene.nodes[*item->value].span, "a moment of inertia cannot be negative");
   }
 }
@@ -188,6 +186,8 @@ Drawing drawing_of(Model& model, const Items& items, const Link& link, const Vec
   } else if (find(items, Kind::mass)) {
     out = {Body::Shape::sphere, {graph.number(default_ball)}};
   }
+  // A drawing's sizes follow constants alone: parameters stand there with their start values.
+  for (Expr& e : out.size) e = substitute(graph, e, model.parameter_starts);
   return out;
 }
 

@@ -3,7 +3,9 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/diagnostic.h"
@@ -31,7 +33,7 @@ struct Value {
 };
 
 struct Symbol {
-  enum class Kind { constant, dof, let, creature, lost } kind = Kind::lost;
+  enum class Kind { constant, parameter, dof, let, function, creature, lost } kind = Kind::lost;
   Span span;
   Value value;
   bool declared = true;  // false: used before any declaration, and reported
@@ -65,6 +67,41 @@ struct TimeCheck {  // to be made when the scene's time is known
   std::string what;
 };
 
+struct IntervalCheck {  // the same: whether a window meets the time
+  Span span;
+  double from = 0, to = 0;
+};
+
+struct CoefficientCheck {  // to be made when all bases are known
+  Span span;
+  std::string dof;
+  int index = 0;
+};
+
+// A function of the scene's own: its body is given its meaning anew wherever it is called.
+struct Defined {
+  std::vector<std::string> arguments;
+  NodeId body = 0;
+  bool lost = false;  // its body is wrong, which has been reported
+};
+
+// A constraint or an objective term as actions speak of it.
+struct Named {
+  Span span;
+  bool is_constraint = true;
+  bool own_times = false;  // its times stand inside at( ) and integral( )
+  bool lost = false;
+  std::optional<Span> deleted;
+};
+
+// Where degrees of freedom are keyed, by name and time.
+using Keyed = std::map<std::pair<std::string, double>, Span>;
+
+struct Frozen {  // a constant whose value has been built in
+  Span span;
+  std::string what;
+};
+
 struct Model {
   Model(const Scene& of, std::vector<Diagnostic>& to) : scene(of), diagnostics(to) {}
   Model(const Model&) = delete;
@@ -78,28 +115,47 @@ struct Model {
   Problem problem;
 
   std::map<std::string, Symbol, std::less<>> symbols;
-  std::map<std::string, Span, std::less<>> later;            // every declaration of the scene, for advice
-  std::map<std::string, Span, std::less<>> statement_names;  // of constraints and objective terms
-  std::vector<std::string> lets;                             // in order
+  std::map<std::string, Span, std::less<>> later;               // every declaration of the scene, for advice
+  std::map<std::string, Named, std::less<>> statement_names;    // of constraints and objective terms
+  std::vector<std::pair<std::string, std::vector<Expr>>> lets;  // in order, and what has been eliminated
   std::vector<Creature> creatures;
+  int constraints = 0, terms = 0;  // declared so far, replacements left out
+
+  std::vector<std::pair<std::string, Expr>> constants;  // what each follows from, in order
+  std::set<std::string, std::less<>> set_constants;     // that an action has given a value of their own
+  std::map<std::string, Frozen, std::less<>> frozen;
+  std::map<Expr, Expr> parameter_starts;  // by input
+
+  std::map<std::string, Defined, std::less<>> functions;
+  const std::map<std::string, Value>* arguments = nullptr;  // of the function whose body is being read
+  int calls = 0;                                            // how deep they are nested there
+  double work = 0;                                          // operations done on expressions so far, about
+  bool overworked = false;                                  // ... and that they are too many has been reported
+
+  std::map<std::string, Span, std::less<>> to_eliminate;  // by statements that have not been reached
+  std::map<std::string, Span, std::less<>> used;          // of those, where they were used first
+  std::map<std::string, Span, std::less<>> eliminated;
 
   std::optional<Span> time;  // where the `time` statement is
   bool time_known = false;   // it has been understood
   std::vector<TimeCheck> time_checks;
+  std::vector<IntervalCheck> interval_checks;
+  std::vector<CoefficientCheck> coefficient_checks;
   std::vector<Trajectories> trajectories;
   int trajectory = -1;              // the one that new degrees of freedom take
   std::vector<int> dof_trajectory;  // by degree of freedom
   std::vector<Span> dof_span;
+  std::vector<std::optional<Span>> dof_bounds;
   std::map<std::string, int, std::less<>> dof_index;
 
   std::vector<FunctionalUse> functionals;
   std::map<FunctionalUse, int> functional_index;
   std::vector<int> placed;  // by functional: its index in problem.functionals, or -1
   std::vector<PendingIntegral> integrals;
-  std::map<std::pair<std::string, double>, Span> keyed;
+  Keyed keyed;
 
   std::optional<Span> first_action;
-  bool misplaced = false;  // a declaration after the first action has been reported
+  bool refined = false;  // by an action: coefficients are as many as the motion says
 
   double differentiate_milliseconds = 0, emit_milliseconds = 0;
 };

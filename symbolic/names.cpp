@@ -1,5 +1,6 @@
 #include "symbolic/names.h"
 
+#include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
 #include "symbolic/nearest.h"
 #include "symbolic/quoted.h"
@@ -61,6 +62,8 @@ void declare(Model& model, const Name& name, Symbol symbol) {
 }
 
 Value look_up(Model& model, const std::string& name, const Span& span) {
+  if (model.arguments)
+    if (const auto argument = model.arguments->find(name); argument != model.arguments->end()) return argument->second;
   if (name == "pi") return {Value::Kind::numbers, {model.graph.pi()}};
   if (name == "e") return {Value::Kind::numbers, {model.graph.number(2.718281828459045)}};
   if (name == "t") return {Value::Kind::numbers, {model.graph.input({InputKind::time, {}, 0, 0})}};
@@ -68,6 +71,10 @@ Value look_up(Model& model, const std::string& name, const Span& span) {
   if (const auto* function = function_named(name))
     return report(model, span, quoted(name) + " is a function: write " + std::string(function->usage)), Value{};
   const auto it = model.symbols.find(name);
+  if (it != model.symbols.end() && it->second.kind == Symbol::Kind::function) {
+    report(model, span, quoted(name) + " is a function: write " + name + "( )");
+    return {};
+  }
   if (it != model.symbols.end()) return it->second.value;
   unknown(model, name, span);
   Symbol lost;
@@ -76,14 +83,41 @@ Value look_up(Model& model, const std::string& name, const Span& span) {
   return {};
 }
 
-std::string statement_name(Model& model, const std::optional<Name>& name, std::string_view kind, std::size_t order) {
+std::string statement_name(Model& model, const std::optional<Name>& name, std::string_view kind, int order,
+                           const Named& named) {
   if (!name || is_too_long(model, *name)) return std::string(kind) + " " + std::to_string(order);
   if (is_reserved(name->text)) report(model, name->span, quoted(name->text) + " is reserved: choose another name");
-  const auto [it, fresh] = model.statement_names.try_emplace(name->text, name->span);
-  if (!fresh)
+  const auto [it, fresh] = model.statement_names.try_emplace(name->text, named);
+  if (!fresh && !it->second.lost)
     report(model, name->span, quoted(name->text) + " names two statements: choose another name",
-           {{it->second, "it is used first here"}});
+           {{it->second.span, "it is used first here"}});
   return name->text;
+}
+
+Named* named_statement(Model& model, const Name& name, bool constraints_only) {
+  const auto found = model.statement_names.find(name.text);
+  const std::string kind = constraints_only ? "constraint" : "constraint or objective term";
+  if (found == model.statement_names.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, named] : model.statement_names)
+      if (named.is_constraint || !constraints_only) names.push_back(known);
+    report(model, name.span,
+           "there is no " + kind + " " + quoted(name.text) + " so far" + suggestion(name.text, names));
+    return nullptr;
+  }
+  Named& named = found->second;
+  if (named.lost) return nullptr;
+  if (named.deleted) {
+    report(model, name.span, quoted(name.text) + " has been deleted" + at_line(*named.deleted),
+           {{*named.deleted, "it is deleted here"}});
+    return nullptr;
+  }
+  if (constraints_only && !named.is_constraint) {
+    report(model, name.span, quoted(name.text) + " is an objective term, which has no scope",
+           {{named.span, "it is declared here"}});
+    return nullptr;
+  }
+  return &named;
 }
 
 std::vector<std::string> known_names(const Model& model) {
@@ -100,11 +134,14 @@ std::vector<int> dofs_of(Model& model, const std::vector<Name>& names) {
   for (const Name& name : names) {
     const auto dof = model.dof_index.find(name.text);
     const auto symbol = model.symbols.find(name.text);
+    if (is_eliminated(model, name.text, name.span)) continue;
     if (dof != model.dof_index.end()) {
       out.push_back(dof->second);
     } else if (symbol != model.symbols.end() && symbol->second.kind == Symbol::Kind::creature) {
       for (const Joint& joint : model.creatures[static_cast<std::size_t>(symbol->second.value.creature)].joints)
-        out.push_back(joint.dof);
+        if (!model.eliminated.contains(model.creatures[static_cast<std::size_t>(symbol->second.value.creature)].name +
+                                       "." + joint.name))
+          out.push_back(joint.dof);
     } else if (symbol == model.symbols.end() || symbol->second.kind != Symbol::Kind::lost) {
       std::vector<std::string> dofs;
       for (const auto& [known, index] : model.dof_index) dofs.push_back(known);
@@ -112,6 +149,14 @@ std::vector<int> dofs_of(Model& model, const std::vector<Name>& names) {
              "there is no degree of freedom " + quoted(name.text) + " so far" + suggestion(name.text, dofs));
     }
   }
+  return out;
+}
+
+std::vector<std::string> dof_names_of(Model& model, const std::vector<Name>& names) {
+  std::vector<std::string> out;
+  std::set<int> seen;
+  for (const int dof : dofs_of(model, names))
+    if (seen.insert(dof).second) out.push_back(model.problem.dofs[static_cast<std::size_t>(dof)].name);
   return out;
 }
 

@@ -15,14 +15,20 @@ void declare(Model& model, const Name& name, Symbol symbol);
 // What a name stands for; reports an unknown one, once.
 Value look_up(Model& model, const std::string& name, const Span& span);
 
-// A constraint's or objective term's name: given, or made from its kind and order.
-std::string statement_name(Model& model, const std::optional<Name>& name, std::string_view kind, std::size_t order);
+// A constraint's or objective term's name: given and entered, or made from its kind and order.
+std::string statement_name(Model& model, const std::optional<Name>& name, std::string_view kind, int order,
+                           const Named& named);
+
+// The constraint or objective term that an action names; null where there is none, which is reported.
+Named* named_statement(Model& model, const Name& name, bool constraints_only = false);
 
 // Every name an expression could use, with creatures' members.
 std::vector<std::string> known_names(const Model& model);
 
 // The indices of the degrees of freedom that names mean: a creature means all its own.
 std::vector<int> dofs_of(Model& model, const std::vector<Name>& names);
+// Their names, each once.
+std::vector<std::string> dof_names_of(Model& model, const std::vector<Name>& names);
 
 // Notes where the scene declares what, for advice on use before declaration.
 void note_declarations(Model& model);

@@ -87,10 +87,7 @@ std::set<std::vector<double>> bases_of(const Model& model, Expr e) {
 
 }  // namespace
 
-void elaborate_objective(Model& model, const MinimizeDeclaration& declaration, const Span& span) {
-  Term term;
-  term.place = place_of(span);
-  term.name = statement_name(model, declaration.name, "objective", model.problem.objective.size() + 1);
+void add_term(Model& model, const MinimizeDeclaration& declaration, Term term) {
   if (const auto weight = elaborate_weight(model, declaration.weight, false)) term.weight = *weight;
   const auto e = elaborate_scalar(model, declaration.value, "an objective");
   if (e && model.facts.timed(*e)) {
@@ -107,11 +104,28 @@ void elaborate_objective(Model& model, const MinimizeDeclaration& declaration, c
   model.problem.objective.push_back(std::move(term));
 }
 
+void elaborate_objective(Model& model, const MinimizeDeclaration& declaration, const Span& span) {
+  Named named;
+  named.span = declaration.name ? declaration.name->span : span;
+  named.is_constraint = false;
+  Term term;
+  term.place = place_of(span);
+  term.since = static_cast<int>(model.problem.actions.size());
+  term.name = statement_name(model, declaration.name, "objective", ++model.terms, named);
+  add_term(model, declaration, std::move(term));
+}
+
 void finish_objective(Model& model) {
-  using Key = std::tuple<std::optional<Expr>, std::optional<Expr>, std::set<std::vector<double>>>;
+  // What begins later, or may, is not computed before.
+  using Key = std::tuple<int, std::optional<Expr>, std::optional<Expr>, std::set<std::vector<double>>>;
+  const auto begins = [&](std::size_t i) {
+    const Term& term = model.problem.objective[i];
+    return term.replacement ? -1 - static_cast<int>(i) : term.since;
+  };
   std::map<Key, std::vector<const PendingIntegral*>> groups;
   for (const PendingIntegral& integral : model.integrals)
-    groups[{integral.from, integral.to, bases_of(model, integral.integrand)}].push_back(&integral);
+    groups[{begins(integral.term), integral.from, integral.to, bases_of(model, integral.integrand)}].push_back(
+        &integral);
   for (const auto& [key, integrals] : groups) {
     std::vector<Expr> values;
     for (const PendingIntegral* integral : integrals) values.push_back(integral->integrand);

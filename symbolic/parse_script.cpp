@@ -57,7 +57,7 @@ void parse_item(Parsing& p, void* target) {
 What parse_script(Parsing& p) {
   ScriptDeclaration out;
   out.name = parse_name(p, "the scripted body's name");
-  parse_braces(p, "script " + out.name.text, parse_item, &out);
+  out.damaged = parse_braces(p, "script " + out.name.text, parse_item, &out);
   return out;
 }
 

@@ -34,12 +34,19 @@ std::optional<Name> declared_name(const Parsing& p, const Token& word) {
   return Name{std::string(p.in.peek().text), p.in.peek().span};
 }
 
+// "goal" in `constrain goal: ...`.
+std::optional<Name> label(const Parsing& p, const Token& word) {
+  if (action_parser(word.text) || !p.in.at(TokenKind::name) || p.in.next().kind != TokenKind::colon)
+    return std::nullopt;
+  return Name{std::string(p.in.peek().text), p.in.peek().span};
+}
+
 Statement parse_statement(Parsing& p) {
   const Token word = p.in.take();
   Statement out;
   out.span = word.span;
   out.word = word.text;
-  const std::optional<Name> declared = declared_name(p, word);
+  const std::optional<Name> declared = declared_name(p, word), named = label(p, word);
   StatementParser parser = word.kind == TokenKind::name ? declaration_parser(word.text) : nullptr;
   if (!parser && word.kind == TokenKind::name) parser = action_parser(word.text);
   if (parser)
@@ -47,7 +54,7 @@ Statement parse_statement(Parsing& p) {
   else
     unknown_statement(p, word);
   if (!p.in.failed() && !p.in.at_separator()) p.in.fail("the end of the statement");
-  if (p.in.failed()) out.what = Damaged{declared};
+  if (p.in.failed()) out.what = Damaged{declared, named};
   return out;
 }
 

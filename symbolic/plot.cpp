@@ -1,5 +1,8 @@
 // What can be sampled and drawn by name: every `let`, and what creatures give.
+#include <algorithm>
+
 #include "symbolic/expression.h"
+#include "symbolic/functional.h"
 #include "symbolic/statement.h"
 
 namespace spacetime::symbolic {
@@ -19,6 +22,13 @@ struct Sheet {
     plots.push_back(std::move(plot));
   }
 
+  // A number made of functionals is no curve, and entering them would make the optimiser carry them along.
+  void add_curve(Model& model, std::string name, const std::vector<Expr>& components) {
+    const bool number =
+        std::any_of(components.begin(), components.end(), [&](Expr e) { return model.facts.has_functional(e); });
+    if (!number) add(std::move(name), components);
+  }
+
   void finish(Model& model) {
     if (values.empty()) return;
     const std::string program = add_program(model, values, Derivatives::none);
@@ -31,13 +41,7 @@ struct Sheet {
 
 void add_lets(Model& model) {
   Sheet sheet;
-  for (const std::string& name : model.lets) {
-    const Value& value = model.symbols.find(name)->second.value;
-    bool sampled = value.kind == Value::Kind::numbers;
-    // A number made of functionals is no curve, and entering them would make the optimiser carry them along.
-    for (const Expr e : value.components) sampled = sampled && !model.facts.has_functional(e);
-    if (sampled) sheet.add(name, value.components);
-  }
+  for (const auto& [name, components] : model.lets) sheet.add_curve(model, name, components);
   sheet.finish(model);
 }
 
@@ -45,7 +49,7 @@ void add_creature(Model& model, int index) {
   Sheet sheet;
   const Creature& creature = model.creatures[static_cast<std::size_t>(index)];
   const auto add = [&](const std::string& name) {
-    sheet.add(creature.name + "." + name, creature_member(model, index, -1, name, {}).first.components);
+    sheet.add_curve(model, creature.name + "." + name, creature_member(model, index, -1, name, {}).first.components);
   };
   for (const Point& point : creature.points) add(point.name);
   for (const std::string& link : creature.links) add(link);
@@ -54,7 +58,7 @@ void add_creature(Model& model, int index) {
     add("force");
     const auto& forces = forces_of(model, model.creatures[static_cast<std::size_t>(index)]);
     for (std::size_t i = 0; i < creature.joints.size(); ++i)
-      sheet.add(creature.name + "." + creature.joints[i].name + ".force", {forces[i]});
+      sheet.add_curve(model, creature.name + "." + creature.joints[i].name + ".force", {forces[i]});
   }
   add("kinetic");
   add("potential");
@@ -88,7 +92,7 @@ void add_bodies(Model& model) {
       bodies.push_back(std::move(body));
     }
     if (bodies.empty()) continue;
-    const std::string program = add_program(model, values, Derivatives::none);
+    const std::string program = add_program(model, place(model, values), Derivatives::none);
     for (Body& body : bodies) {
       body.program = program;
       model.problem.bodies.push_back(std::move(body));

@@ -160,6 +160,7 @@ struct OrientItem {
 struct ScriptDeclaration {
   Name name;
   std::vector<std::variant<PathItem, TravelItem, OrientItem>> items;
+  bool damaged = false;  // some items were lost to mistakes
 };
 
 struct ScopeClause {
@@ -274,6 +275,7 @@ struct ResetAction {};
 // A statement with mistakes in it: all that is known is what it would have declared.
 struct Damaged {
   std::optional<Name> name;
+  std::optional<Name> statement;  // a constraint's or an objective term's own name
 };
 
 struct Statement {

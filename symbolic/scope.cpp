@@ -1,19 +1,11 @@
 #include "symbolic/scope.h"
 
-#include <cstdio>
-
 #include "symbolic/expression.h"
 
 namespace spacetime::symbolic {
 namespace {
 
 constexpr int most_instances = 1000000;  // of one statement; memory for each would run out soon after
-
-std::string text_of(double number) {
-  char out[32];
-  std::snprintf(out, sizeof out, "%.6g", number);
-  return out;
-}
 
 std::optional<Fixed> fixed_time(Model& model, NodeId root, std::string_view what) {
   const auto time = elaborate_fixed(model, root, what);
@@ -58,7 +50,8 @@ std::optional<Scope> elaborate_scope(Model& model, const ScopeClause& clause) {
     const auto count = elaborate_count(model, clause.argument, "the count", 2, most_instances);
     if (!count) return std::nullopt;
     out.kind = Scope::Kind::count;
-    out.count = *count;
+    out.count = count->value;
+    freeze(model, count->expr, clause.span, "count");
   }
   if (clause.kind == Kind::every) {
     const auto step = elaborate_fixed(model, clause.argument, "the step");
@@ -75,14 +68,31 @@ std::optional<Scope> elaborate_scope(Model& model, const ScopeClause& clause) {
   return out;
 }
 
+std::optional<spacetime::Interval> elaborate_window(Model& model, const Interval& interval, std::string_view what) {
+  const auto from = elaborate_fixed(model, interval.from, "the first time of " + std::string(what));
+  const auto to = elaborate_fixed(model, interval.to, "the last time of " + std::string(what));
+  if (!from || !to) return std::nullopt;
+  if (!(from->value < to->value)) {
+    report(model, interval.span, "the last time of " + std::string(what) + " must be later than its first");
+    return std::nullopt;
+  }
+  model.interval_checks.push_back({interval.span, from->value, to->value});
+  return spacetime::Interval{quantity(model, from->expr), quantity(model, to->expr)};
+}
+
 void check_times(Model& model) {
   const double start = model.problem.start, end = model.problem.end;
   const double slack = 1e-9 * (end - start);  // the same as the one that makes a last step whole
+  const auto interval = [](double from, double to) {
+    return std::string("[").append(text_of(from)).append(", ").append(text_of(to)).append("]");
+  };
+  const std::string time = "the scene's time " + interval(start, end);
   for (const TimeCheck& check : model.time_checks)
     if (check.time < start - slack || check.time > end + slack)
-      report(model, check.span,
-             check.what + " is " + text_of(check.time) + ", which lies outside the scene's time [" + text_of(start) +
-                 ", " + text_of(end) + "]");
+      report(model, check.span, check.what + " is " + text_of(check.time) + ", which lies outside " + time);
+  for (const IntervalCheck& check : model.interval_checks)
+    if (check.to <= start + slack || check.from >= end - slack)
+      report(model, check.span, interval(check.from, check.to) + " does not meet " + time);
 }
 
 }  // namespace spacetime::symbolic

@@ -1,7 +1,9 @@
 // Wrong scenes: each slip is reported once, where it is, in words that say what to do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tests/symbolic/compiled.h"
@@ -159,8 +161,226 @@ TEST(Diagnostics, Statements) {
            {head + "solve iterations -1", 4, 18, "a whole number"},
            {head + "solve tolerance 0", 4, 17, "greater than 0"},
            {head + "solve method newtn", 4, 14, "did you mean 'newton'?"},
-           {head + "solve\nconstrain x = 0 at 0\ndof y", 5, 1, "after an action"}})
+           {head + "constrain 0 <= x >= 1", 4, 18, "lo <= x <= hi"},
+           {head + "constrain (0, 1) <= x <= (1, 2, 3)", 4, 18, "2 components and the right side 3"},
+           {head + "constrain x <= y", 4, 16, "unknown name 'y'"},
+           {head + "constrain x <= 0 when x", 4, 23, "'when' takes a condition"},
+           {head + "constrain x <= 0 when integral(x) > 1", 4, 23, "cannot be made of integral( )"},
+           {head + "constrain x <= 0 when at(x, 1) > 1 and t < 1", 4, 23, "cannot be made of integral( )"},
+           {head + "constrain x <= 0 when t < 1 when t > 0", 4, 29, "'when' stands twice"},
+           {head + "dof y in [1, 0]", 4, 10, "upper bound must be greater"},
+           {head + "dof y in [0, t]", 4, 14, "depends on time"},
+           {head + "dof y = 3 in [0, 1]", 4, 14, "start value 3 lies outside"},
+           {head + "dof y in 0", 4, 10, "an interval such as [0, 1]"},
+           {time + "creature c { link l { revolute k in [1, 1]; a 1 } }", 3, 37, "upper bound must be greater"}})
     expect_one(wrong);
+}
+
+TEST(Diagnostics, Parameters) {
+  const std::string p = head + "parameter m = 1\n";  // four lines
+  for (const Wrong& wrong :
+       std::vector<Wrong>{{head + "parameter m", 4, 12, "'=' and a start value"},
+                          {head + "parameter x = 1", 4, 11, "'x' is declared twice"},
+                          {head + "parameter m = x", 4, 15, "depends on the motion"},
+                          {head + "parameter m = 1 in [2, 3]", 4, 20, "start value 1 lies outside"},
+                          {head + "parameter m = 1 in [2, -3]", 4, 20, "upper bound must be greater"},
+                          {p + "constrain x = 0 at m", 5, 20, "a parameter, which is not known before the motion is"},
+                          {p + "constrain x = 0 over [0, m]", 5, 26, "a parameter"},
+                          {p + "constrain x = 0 over [0, 2] every m", 5, 35, "a parameter"},
+                          {p + "constrain x = 0 at 1 weight m", 5, 29, "a parameter"},
+                          {p + "constant c = 2*m", 5, 14, "a parameter"},
+                          {p + "minimize at(x, m)", 5, 16, "not of a parameter"},
+                          {p + "minimize integral(x, 0, m)", 5, 25, "not of a parameter"},
+                          {p + "dof y in [0, m]", 5, 14, "a parameter"},
+                          {p + "dof y = m", 5, 9, "a parameter"},
+                          {p + "parameter n = m", 5, 15, "a parameter"},
+                          {p + "keyframe m: x = 1", 5, 10, "a parameter"},
+                          {p + "keyframe 1: x = m", 5, 17, "numbers and constants"},
+                          {p + "keyframe 1: m = 1", 5, 13, "only a degree of freedom can be keyed"},
+                          {p + "set m = 3", 5, 5, "'m' is no constant"},
+                          {p + "trajectory bspline spans m", 5, 26, "a parameter"},
+                          {p + "script s { path [(0, 0, 0), (1, 0, m), (2, 0, 0), (3, 0, 0)] }", 5, 29, "a parameter"}})
+    expect_one(wrong);
+}
+
+TEST(Diagnostics, FunctionsOfOnesOwn) {
+  const std::string f = head + "define f(a, b) = a/b\n";  // four lines
+  for (const Wrong& wrong :
+       std::vector<Wrong>{{f + "let y = f(x)", 5, 9, "'f' is written f(a, b), but has 1 argument here"},
+                          {f + "let y = f(x, 1, 2) + f(x, 2)", 5, 9, "but has 3 arguments here"},
+                          {f + "let y = f", 5, 9, "'f' is a function"},
+                          {f + "let y = f + x'", 5, 9, "'f' is a function"},
+                          {f + "let y = f(x, 0) + f(x, 1)", 4, 19, "division by zero"},
+                          {f + "let y = f_(x, 1)", 5, 9, "did you mean 'f'?"},
+                          {f + "constant f = 2", 5, 10, "'f' is declared twice"},
+                          {head + "define f(a) = f(a)", 4, 15, "there is no function 'f'"},
+                          {head + "define f(a) = b\nlet y = f(x)", 4, 15, "unknown name 'b'"},
+                          {head + "define f(a) = g(a)\nlet y = f(x)\nlet z = f(2)", 4, 15, "there is no function 'g'"},
+                          {head + "define f(a) = x(a)\nlet y = f(x)", 4, 15, "'x' is no function"},
+                          {head + "define f(x) = x^2\nlet y = f(2)", 4, 10, "an argument does not hide it"},
+                          {head + "define f(a, a) = a\nlet y = f(2, 3)", 4, 13, "'a' is declared twice"},
+                          {head + "define f(pi) = 2", 4, 10, "'pi' is reserved"},
+                          {head + "define f(f) = 2", 4, 10, "the function's name"},
+                          {head + "define sin(a) = 2", 4, 8, "'sin' is reserved"},
+                          {head + "define f() = 2", 4, 10, "an argument's name"},
+                          {head + "define f(a = 2\nlet y = f(1)", 4, 12, "expected ',' or ')'"},
+                          {head + "define f(a) = a +* 2\nlet y = f(1) + f(2)", 4, 18, "expected a value"},
+                          {head + "define f(a) = a.z\nlet y = f((x, 1))", 4, 17, "has no component '.z'"}})
+    expect_one(wrong);
+  std::string deep = head + "define f0(a) = a\n";
+  for (int i = 1; i <= 100; ++i) deep += "define f" + std::to_string(i) + "(a) = f" + std::to_string(i - 1) + "(a)\n";
+  expect_one({deep + "let y = f100(x)\nlet z = f100(2)", 41, 17, "more than 64 deep"});
+}
+
+TEST(Diagnostics, Elimination) {
+  const std::string arm =
+      time + "creature arm { link a { revolute p; a 1; mass 1 }; link b { revolute r; a 1; mass 1 } }\n";
+  for (const Wrong& wrong : std::vector<Wrong>{
+           {head + "eliminate y = 2", 4, 11, "no degree of freedom 'y'"},
+           {head + "eliminate x = y", 4, 15, "unknown name 'y'"},
+           {head + "eliminate x = x'", 4, 15, "by means of itself"},
+           {head + "eliminate x = (1, 2)", 4, 15, "must be a single number"},
+           {head + "let h = x^2\neliminate x = t", 5, 11, "'x' is used on line 4, before it is eliminated"},
+           {head + "constrain x = 0 at 1\neliminate x = t", 5, 11, "used on line 4"},
+           {head + "keyframe 0: x = 1\neliminate x = t", 5, 11, "used on line 4"},
+           {head + "eliminate x = t\neliminate x = 2*t", 5, 11, "'x' is eliminated on line 4"},
+           {head + "eliminate x = t\nkeyframe 0: x = 1", 5, 13, "'x' is eliminated on line 4"},
+           {head + "dof y\neliminate x = y\nkeyframe 0: x = 1", 6, 13, "'x' is eliminated on line 5"},
+           {head + "eliminate x = t\nkey 0: x = 1", 5, 8, "'x' is eliminated on line 4"},
+           {head + "eliminate x = t\nbound x in [0, 1]", 5, 7, "'x' is eliminated on line 4"},
+           {head + "eliminate x = t\ncontrol x 1 = 0", 5, 9, "'x' is eliminated on line 4"},
+           {head + "eliminate x = t\nwindow [0, 1] of x", 5, 18, "'x' is eliminated on line 4"},
+           {head + "dof y in [0, 1]\neliminate y = x", 5, 11, "'y' has bounds"},
+           {head + "constant g = 2\neliminate g = x", 5, 11, "no degree of freedom 'g'"},
+           {head + "dof y\neliminate x = y''\nconstrain x' = 0 at 1", 6, 12, "third time derivative"},
+           {arm + "eliminate arm = 2", 4, 11, "'arm' is a creature"},
+           {arm + "eliminate arm.s = 2", 4, 11, "no degree of freedom 'arm.s'"},
+           {arm + "eliminate arm.r = arm.p'", 4, 19, "two time derivatives"},
+           {arm + "let h = arm.a.y + arm.b.y\neliminate arm.r = -arm.p", 5, 11, "used on line 4"},
+           {arm + "minimize integral(dot(arm.force, arm.force))\neliminate arm.p = t", 5, 11, "used on line 4"},
+           {arm + "eliminate arm.r = -arm.p\nkeyframe 0: arm.q = 1", 5, 13, "only a degree of freedom can be keyed"}})
+    expect_one(wrong);
+}
+
+TEST(Diagnostics, Actions) {
+  const std::string goal =
+      head + "constant a = 1\nconstrain goal: x = a at 1\nminimize energy: integral(x''^2)\n";  // six lines
+  for (const Wrong& wrong : std::vector<Wrong>{
+           {goal + "solve method sqp92 linear", 7, 26, "'cg'"},
+           {goal + "solve method bfgs linear cg", 7, 14, "'sqp92' alone"},
+           {goal + "solve starts 0", 7, 14, "from 1"},
+           {goal + "solve iterations 5 iterations 6", 7, 20, "stands twice"},
+           {goal + "iterate x", 7, 9, "depends on the motion"},
+           {goal + "window [3, 4]", 7, 8, "[3, 4] does not meet the scene's time [0, 2]"},
+           {goal + "window [-1, 0]", 7, 8, "does not meet"},
+           {goal + "window [1, 0]", 7, 8, "later than its first"},
+           {goal + "window [0, 1] of y", 7, 18, "no degree of freedom 'y'"},
+           {goal + "window 1", 7, 8, "an interval such as [0, 1]"},
+           {goal + "refine [2, 3]", 7, 8, "does not meet"},
+           {goal + "refine [0, 1] times 0", 7, 21, "from 1"},
+           {goal + "refine auto", 7, 12, "expected 'tolerance'"},
+           {goal + "refine auto tolerance 0", 7, 23, "greater than 0"},
+           {goal + "shake 0.1", 7, 7, "expected 'amplitude'"},
+           {goal + "shake amplitude -1", 7, 17, "greater than 0"},
+           {goal + "shake amplitude 1 seed 0.5", 7, 24, "a whole number"},
+           {goal + "filter strength 0", 7, 17, "greater than 0"},
+           {goal + "damp 0", 7, 6, "greater than 0"},
+           {goal + "damp x", 7, 6, "depends on the motion"},
+           {goal + "adapt tolerance 0", 7, 17, "greater than 0"},
+           {goal + "adapt tolerance 1 levels 0", 7, 26, "from 1"},
+           {goal + "lock level -1", 7, 12, "a whole number"},
+           {goal + "lock 3", 7, 6, "expected 'level'"},
+           {goal + "set b = 1", 7, 5, "no constant 'b' so far"},
+           {goal + "constant gravity = 9.81\nset gravty = 1", 8, 5, "did you mean 'gravity'?"},
+           {goal + "set x = 1", 7, 5, "'x' is no constant"},
+           {goal + "set a = x", 7, 9, "depends on the motion"},
+           {goal + "set a = 1/0", 7, 10, "division by zero"},
+           {goal + "set a = 3\nconstrain x = 0 at a", 8, 20, "is 3, which lies outside"},
+           {goal + "set a = 0\nlet y = x/a", 8, 10, "division by zero"},
+           {goal + "constant c = 1/(a + 1)\nset a = -1", 8, 5, "'c', which follows from it, has no finite value"},
+           {goal + "weight gaol = 3", 7, 8, "did you mean 'goal'?"},
+           {goal + "weight goal = -3", 7, 15, "cannot be negative"},
+           {goal + "weight energy = inf", 7, 17, "write a number"},
+           {goal + "weight x = 3", 7, 8, "there is no constraint or objective term 'x'"},
+           {goal + "enable gaol", 7, 8, "did you mean 'goal'?"},
+           {goal + "disable enrgy", 7, 9, "did you mean 'energy'?"},
+           {goal + "delete goal\nenable goal", 8, 8, "'goal' has been deleted (line 7)"},
+           {goal + "delete goal\nreplace goal: x = 0 at 1", 8, 9, "has been deleted"},
+           {goal + "solve\nconstrain late: x = 0 at 1\nminimize late: integral(x)", 9, 10, "names two statements"},
+           {head + "enable late\nconstrain late: x = 0 at 1", 4, 8, "no constraint or objective term 'late' so far"},
+           {goal + "replace goal: integral(x)", 7, 9, "only a relation can take its place"},
+           {goal + "replace energy: x = 0 at 1", 7, 9, "only a functional can take its place"},
+           {goal + "replace goal: x = 0 at 5", 7, 24, "outside the scene's time"},
+           {goal + "replace nobody: x = 0 at 1", 7, 9, "'nobody'"},
+           {goal + "replace goal x = 0", 7, 14, "':' and what replaces it"},
+           {goal + "scope goal at 5", 7, 15, "outside the scene's time"},
+           {goal + "scope energy at 1", 7, 7, "an objective term, which has no scope"},
+           {goal + "scope goal", 7, 11, "a scope: 'at' and times"},
+           {goal + "constrain c: at(x, 1) = 3\nscope c at 1.5", 8, 7, "stand inside it"},
+           {goal + "bound y in [0, 1]", 7, 7, "no degree of freedom 'y'"},
+           {goal + "bound x in [1, 0]", 7, 12, "upper bound must be greater"},
+           {goal + "bound x [0, 1]", 7, 9, "expected 'in'"},
+           {goal + "key 3: x = 1", 7, 5, "outside the scene's time"},
+           {goal + "key 1: x = 1, x = 2", 7, 15, "two keys at this time"},
+           {goal + "key 1: x' = 1", 7, 8, "only a degree of freedom can be keyed"},
+           {goal + "key 1: x = t", 7, 12, "numbers and constants"},
+           {goal + "control y 1 = 0", 7, 9, "no degree of freedom 'y'"},
+           {goal + "control x 11 = 0", 7, 11, "'x' has 11 coefficients, numbered from 0"},
+           {goal + "control x 1.5 = 0", 7, 11, "a whole number"},
+           {goal + "control x 1 = t", 7, 15, "depends on time"},
+           {goal + "reset x", 7, 7, "expected the end of the statement"},
+           {goal + "solve\nkeyframe 0: x = 1", 8, 1, "move this keyframe up, or write 'key'"},
+           {"trajectory bspline spans 4\nsolve\ntime [0, 2]", 3, 1, "must stand before the first action"},
+           {goal + "solve\ntrajectory bspline spans 4 for x", 8, 1, "must stand before the first action"}})
+    expect_one(wrong);
+}
+
+TEST(Diagnostics, FrozenConstantsNameTheLineThatFrozeThem) {
+  for (const auto& [text, line, what] : std::vector<std::tuple<std::string, int, std::string>>{
+           {"constant T = 2\ntime [0, T]\ntrajectory bspline spans 8\ndof x\nset T = 3", 2, "'time' on line 2"},
+           {"constant a = 1\nconstant T = 2*a\ntime [0, T]\ntrajectory bspline spans 8\ndof x\nset a = 3", 3,
+            "'time' on line 3"},
+           {"constant n = 8\ntime [0, 1]\ntrajectory bspline spans n\ndof x\nset n = 3", 3, "'trajectory' on line 3"},
+           {"constant u = 0.5\ntime [0, 1]\ntrajectory bspline knots [0, u, 1]\ndof x\nset u = 0.3", 3,
+            "'trajectory' on line 3"},
+           {"constant n = 8\n" + head + "constrain x = 0 over [0, 2] count n\nsolve\nset n = 3", 5,
+            "'count' on line 5"}}) {
+    const int last = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+    expect_one({text, last, 5, what});
+    EXPECT_EQ(compile(text).diagnostics.at(0).notes.at(0).span.line, line);
+  }
+}
+
+TEST(Diagnostics, Scripts) {
+  const std::string path = "path [(0, 0, 0), (1, 0, 0), (2, 1, 0), (3, 1, 1)]";
+  for (const Wrong& wrong : std::vector<Wrong>{
+           {head + "script s { path [(0, 0, 0), (1, 0, 0), (2, 0, 0)] }", 4, 17, "at least 4"},
+           {head + "script s { path through [(0, 0, 0)] }", 4, 25, "at least 2"},
+           {head + "script s { path [(0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)] }", 4, 18, "has 3 components"},
+           {head + "script s { path [(0, 0, x), (1, 0, 0), (2, 0, 0), (3, 0, 0)] }", 4, 18, "depends on the motion"},
+           {head + "script s { path [(0, 0, z), (1, 0, 0), (2, 0, 0), (3, 0, 0)] }", 4, 25, "unknown name 'z'"},
+           {head + "script s { " + path + " knots [0, 1, 2] }", 4, 68, "need 2 knots"},
+           {head + "script s { " + path + " knots [1, 0] }", 4, 72, "knots must rise"},
+           {head + "script s { " + path + "; " + path + " }", 4, 8, "one 'path', but here are 2"},
+           {head + "script s { travel constant }", 4, 8, "one 'path', but here are 0"},
+           {head + "script s { " + path + "; travel [(0, 0), (0, 1)] }", 4, 79, "times must rise"},
+           {head + "script s { " + path + "; travel [(0, 0)] }", 4, 70, "at least 2"},
+           {head + "script s { " + path + "; travel [(0, 0), (1, 1)] knots [0, 1] }", 4, 93, "'travel control'"},
+           {head + "script s { " + path + "; travel control [(0, 0), (1, 1)] }", 4, 78, "at least 4"},
+           {head + "script s { " + path + "; travel constant; travel constant }", 4, 8, "one 'travel'"},
+           {head + "script s { " + path + "; orient [(0, (1, 0, 0))] }", 4, 71, "has 5 components"},
+           {head + "script s { " + path + "; orient along up (0, 1) }", 4, 79, "has 3 components"},
+           {head + "script s { " + path + "; jump }", 4, 63, "'path', 'travel' or 'orient'"},
+           {head + "script s { " + path + "; travel constant }\nlet y = s.x", 4, 1, "not built yet"},
+           {"time [0, 1]\ntrajectory wavelet level 2.5\ndof x", 2, 26, "a whole number"},
+           {"time [0, 1]\ntrajectory wavelet 5\ndof x", 2, 20, "expected 'level'"}})
+    expect_one(wrong);
+}
+
+TEST(Diagnostics, AddsNothingToADamagedStatement) {
+  for (const std::string slip :
+       {"constrain goal: x = 0 at", "minimize goal: integral(x +* 2)", "constrain goal: x < 0"})
+    EXPECT_EQ(compile(head + slip + "\nweight goal = 3\ndisable goal\n").diagnostics.size(), 1U) << slip;
 }
 
 TEST(Diagnostics, Creatures) {
@@ -215,33 +435,6 @@ TEST(Diagnostics, Creatures) {
 
            {arm(link + "link two point { fixed; a 1 }"), 5, 10, "expected '{', found 'point'"}})
     expect_one(wrong);
-}
-
-TEST(Diagnostics, WhatIsNotBuiltYetIsRefusedNotIgnored) {
-  for (const Wrong& wrong : std::vector<Wrong>{
-           {head + "constrain x <= 3", 4, 13, "inequalities are not built yet"},
-           {head + "constrain x >= 3 at 1", 4, 13, "inequalities are not built yet"},
-           {head + "constrain 0 <= x <= 3 over [0, 1]", 4, 13, "inequalities are not built yet"},
-           {head + "constrain x = 0 at 0 when t < 1", 4, 27, "'when' is not built yet"},
-           {head + "dof y in [0, 1]", 4, 10, "bounds are not built yet"},
-           {time + "creature c { link l { revolute k in [0, 1]; a 1 } }", 3, 37, "bounds are not built yet"},
-           {head + "parameter m = 3\nconstrain x = m at 0\nlet y = m", 4, 1, "parameters are not built yet"},
-           {head + "define f(a) = a^2\nlet y = f(x)", 4, 1, "functions of one's own are not built yet"},
-           {head + "eliminate x = t", 4, 1, "'eliminate' is not built yet"},
-           {head + "script hoop { travel constant }\nconstrain x = hoop.x at 0", 4, 1,
-            "scripted bodies are not built yet"},
-           {"time [0, 1]\ntrajectory wavelet level 5\ndof x", 2, 1, "wavelet trajectories are not built yet"},
-           {head + "solve method bfgs", 4, 14, "'bfgs' is not built yet"},
-           {head + "solve method sqp92 linear cg", 4, 14, "'sqp92' is not built yet"},
-           {head + "solve starts 5", 4, 14, "'starts' is not built yet"}})
-    expect_one(wrong);
-  for (const std::string action :
-       {"window [0, 1]",     "window all",        "refine [0, 1]",    "refine auto tolerance 1",
-        "shake amplitude 1", "filter strength 1", "damp 1",           "adapt tolerance 1",
-        "lock level 1",      "set g = 1",         "weight a = 1",     "enable a",
-        "disable a",         "delete a",          "replace a: x = 1", "scope a at 1",
-        "bound x in [0, 1]", "key 0: x = 1",      "control x 1 = 2",  "reset"})
-    expect_one({head + action, 4, 1, "is not built yet: only 'solve' and 'iterate' are"});
 }
 
 TEST(Diagnostics, AllMistakesComeInOnePassInTheOrderOfTheText) {
