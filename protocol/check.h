@@ -19,9 +19,11 @@ struct Fault {
 
 // Nothing where the problem can be used without further questions: the time rises; names are unique, and all that is
 // named is there; programs are valid and stand under their hashes; outputs are in range; constants and functionals use
-// only what is before them; quantities use constants alone, and statements that depend on no time no trajectories;
-// knots rise; the limits of limits.h are kept.  What follows from values of constants (times outside the span, steps
-// that are not positive) is checked as far as it is plain numbers; the rest is for who evaluates them.
+// only what is before them; quantities use constants alone, conditions no functionals, and statements that depend on no
+// time no trajectories; knots rise; replacements replace what is of their kind; actions name what has taken effect by
+// then and set no frozen constant; the limits of limits.h are kept.  What follows from values of constants (times
+// outside the span, steps that are not positive, bounds in the wrong order) is checked as far as it is plain numbers;
+// the rest is for who evaluates them, as is what only a run tells: how many coefficients there are after a refinement.
 std::optional<Fault> validate(const Problem& problem);
 
 // Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,

@@ -14,19 +14,44 @@ namespace {
 constexpr std::array<std::string_view, 2> functional_kinds{"integral", "at"};
 constexpr std::array<std::string_view, 3> piece_kinds{"integral", "at", "once"};
 constexpr std::array<std::string_view, 4> shapes{"capsule", "sphere", "box", "none"};
-constexpr std::array<std::string_view, 1> relations{"="};
+constexpr std::array<std::string_view, 2> relations{"=", "<="};
 
 void write(Writer& to, const Constant& constant) {
   to.object([&] {
     to.member("name", constant.name);
     member(to, "value", constant.value);
+    if (constant.frozen) {
+      to.key("frozen");
+      to.object([&] { write_place(to, *constant.frozen); });
+    }
     write_place(to, constant.place);
   });
 }
 
 Constant constant_from(const Node& node) {
-  node.object({"name", "value"}, {"line", "column"});
-  return {node["name"].string(), quantity_from(node["value"]), place_from(node)};
+  node.object({"name", "value"}, {"frozen", "line", "column"});
+  Constant constant{node["name"].string(), quantity_from(node["value"]), place_from(node)};
+  if (const auto frozen = node.find("frozen")) {
+    frozen->object({}, {"line", "column"});
+    constant.frozen = place_from(*frozen);
+  }
+  return constant;
+}
+
+void write(Writer& to, const Parameter& parameter) {
+  to.object([&] {
+    to.member("name", parameter.name);
+    member(to, "start", parameter.start);
+    member(to, "lower", parameter.lower);
+    member(to, "upper", parameter.upper);
+    write_place(to, parameter.place);
+  });
+}
+
+Parameter parameter_from(const Node& node) {
+  node.object({"name", "start"}, {"lower", "upper", "line", "column"});
+  return {node["name"].string(), quantity_from(node["start"]), place_from(node), optional_quantity(node, "lower"),
+          optional_quantity(node, "upper")};
 }
 
 void write(Writer& to, const Dof& dof) {
@@ -35,13 +60,16 @@ void write(Writer& to, const Dof& dof) {
     to.key("basis");
     write(to, dof.basis);
     member(to, "start", dof.start);
+    member(to, "lower", dof.lower);
+    member(to, "upper", dof.upper);
     write_place(to, dof.place);
   });
 }
 
 Dof dof_from(const Node& node) {
-  node.object({"name", "basis", "start"}, {"line", "column"});
-  return {node["name"].string(), basis_from(node["basis"]), quantity_from(node["start"]), place_from(node)};
+  node.object({"name", "basis", "start"}, {"lower", "upper", "line", "column"});
+  return {node["name"].string(), basis_from(node["basis"]),        quantity_from(node["start"]),
+          place_from(node),      optional_quantity(node, "lower"), optional_quantity(node, "upper")};
 }
 
 // Functionals and pieces are alike: what is summed, and over which time or at which.
@@ -79,23 +107,57 @@ Summed summed_from(const Node& node, std::span<const std::string_view> kinds) {
   return summed;
 }
 
+// When a constraint or a term of the objective takes effect.
+template <class Statement>
+void write_effect(Writer& to, const Statement& statement) {
+  if (statement.since != 0) to.member("since", statement.since);
+  if (statement.replacement) to.member("replacement", true);
+}
+
+template <class Statement>
+void read_effect(const Node& node, Statement& statement) {
+  if (const auto since = node.find("since")) statement.since = since->integer();
+  if (const auto replacement = node.find("replacement")) statement.replacement = replacement->boolean();
+}
+
+void write(Writer& to, const Condition& condition) {
+  to.object([&] {
+    to.member("program", condition.program);
+    to.member("output", condition.output);
+  });
+}
+
+Condition condition_from(const Node& node) {
+  node.object({"program", "output"});
+  return {node["program"].string(), node["output"].integer()};
+}
+
 void write(Writer& to, const Constraint& constraint) {
   to.object([&] {
     to.member("name", constraint.name);
-    to.member("relation", relations.front());
+    to.choice("relation", relations, constraint.relation);
     to.member("program", constraint.program);
     to.key("scope");
     write(to, constraint.scope);
+    if (constraint.condition) {
+      to.key("condition");
+      write(to, *constraint.condition);
+    }
     member(to, "weight", constraint.weight);
+    write_effect(to, constraint);
     write_place(to, constraint.place);
   });
 }
 
 Constraint constraint_from(const Node& node) {
-  node.object({"name", "relation", "program", "scope"}, {"weight", "line", "column"});
-  node["relation"].choice(relations);
-  return {node["name"].string(), node["program"].string(), scope_from(node["scope"]), optional_quantity(node, "weight"),
-          place_from(node)};
+  node.object({"name", "relation", "program", "scope"},
+              {"condition", "weight", "since", "replacement", "line", "column"});
+  Constraint constraint{node["name"].string(), node["program"].string(), scope_from(node["scope"]),
+                        optional_quantity(node, "weight"), place_from(node)};
+  constraint.relation = static_cast<Constraint::Relation>(node["relation"].choice(relations));
+  if (const auto condition = node.find("condition")) constraint.condition = condition_from(*condition);
+  read_effect(node, constraint);
+  return constraint;
 }
 
 void write(Writer& to, const Term& term) {
@@ -104,15 +166,18 @@ void write(Writer& to, const Term& term) {
     member(to, "weight", term.weight);
     to.key("pieces");
     to.list_of(term.pieces, [&](const Piece& piece) { write_summed(to, piece, piece_kinds); });
+    write_effect(to, term);
     write_place(to, term.place);
   });
 }
 
 Term term_from(const Node& node) {
-  node.object({"name", "weight", "pieces"}, {"line", "column"});
-  return {node["name"].string(), quantity_from(node["weight"]),
-          node["pieces"].each([](const Node& piece) { return summed_from<Piece>(piece, piece_kinds); }),
-          place_from(node)};
+  node.object({"name", "weight", "pieces"}, {"since", "replacement", "line", "column"});
+  Term term{node["name"].string(), quantity_from(node["weight"]),
+            node["pieces"].each([](const Node& piece) { return summed_from<Piece>(piece, piece_kinds); }),
+            place_from(node)};
+  read_effect(node, term);
+  return term;
 }
 
 void write(Writer& to, const Keyframe& keyframe) {
@@ -173,6 +238,7 @@ void write(Writer& to, const Problem& problem) {
         to.key("time");
         to.numbers(std::array{problem.start, problem.end});
         statements("constants", problem.constants);
+        statements("parameters", problem.parameters);
         statements("dofs", problem.dofs);
         to.key("programs");
         to.object(
@@ -206,14 +272,15 @@ std::string write(const Problem& problem) {
 Problem problem_from(const Node& node) {
   static constexpr std::array formats{problem_format};
   node["format"].choice(formats);
-  node.object({"format", "time", "constants", "dofs", "programs", "functionals", "constraints", "objective",
-               "keyframes", "plots", "bodies", "actions"});
+  node.object({"format", "time", "constants", "parameters", "dofs", "programs", "functionals", "constraints",
+               "objective", "keyframes", "plots", "bodies", "actions"});
   Problem problem;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
   problem.start = time[0].number();
   problem.end = time[1].number();
   problem.constants = node["constants"].each(constant_from);
+  problem.parameters = node["parameters"].each(parameter_from);
   problem.dofs = node["dofs"].each(dof_from);
   node["programs"].members(
       [&](const std::string& name, const Node& program) { problem.programs.emplace(name, program_from(program)); });

@@ -42,7 +42,7 @@ bool has_form_of_motion(const std::string& text) {
 }
 
 // Paths of all values, one for each kind of place: elements of a list of numbers are alike, elements of a list of
-// statements are not.
+// statements are not; programs differ in their inputs.
 std::vector<json::json_pointer> places(const json& document) {
   std::vector<json::json_pointer> found;
   std::vector<json::json_pointer> open{json::json_pointer()};
@@ -52,7 +52,11 @@ std::vector<json::json_pointer> places(const json& document) {
     found.push_back(place);
     const auto& value = document[place];
     if (value.is_object()) {
-      for (const auto& [name, member] : value.items()) open.push_back(place / name);
+      const bool programs = !place.empty() && place.back() == "programs";
+      for (const auto& [name, member] : value.items()) {
+        const bool first = !programs || name == value.begin().key();
+        open.push_back(first ? place / name : place / name / "inputs");
+      }
     } else if (value.is_array()) {
       for (std::size_t i = 0; i < value.size(); ++i) {
         if (i == 0 || value[i].is_object()) open.push_back(place / i);
@@ -137,6 +141,15 @@ TEST(Schemas, AgreeWithTheReaderOfProblems) {
   EXPECT_GT(counts.meaning, 100);
 }
 
+TEST(Schemas, AgreeWithTheReaderOfActions) {
+  auto problem = examples::busy_problem();
+  const auto counts =
+      compare(Schema("problem.schema.json"), json::parse(write(problem)), reads_problem, has_form_of_problem);
+  EXPECT_GT(counts.both, 2000);
+  EXPECT_GT(counts.neither, 150);
+  EXPECT_GT(counts.meaning, 150);
+}
+
 TEST(Schemas, AgreeWithTheReaderOfMotions) {
   auto motion = examples::rich_motion();
   for (const auto status : {Status::converged, Status::failed}) {
@@ -159,6 +172,12 @@ TEST(Schemas, KnowTheOperationsAndTheLimits) {
   EXPECT_EQ(schema["definitions"]["basis"]["properties"]["knots"]["maxItems"], limits::spans + 7);
   EXPECT_EQ(schema["definitions"]["scope"]["oneOf"][3]["properties"]["count"]["maximum"], limits::instances);
   EXPECT_EQ(schema["definitions"]["name"]["maxLength"], limits::name_bytes);
+  const auto& actions = schema["definitions"]["action"]["oneOf"];
+  ASSERT_EQ(actions.size(), action_names().size());
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    EXPECT_EQ(actions[i]["properties"]["action"]["const"], action_names()[i]);
+  }
+  EXPECT_EQ(actions[3]["properties"]["times"]["maximum"], limits::halvings);
 }
 
 // Whether every member has a description, its own or that of what it refers to.
