@@ -275,9 +275,9 @@ TEST(Run, AnInterruptionLeavesTheMotionReached) {
 }
 
 TEST(Run, ProgressTellsEveryIteration) {
-  std::vector<Progress> lines;
+  std::vector<IterationRecord> lines;
   RunOptions options;
-  options.progress = [&](const Progress& progress) { lines.push_back(progress); };
+  options.progress = [&](const IterationRecord& line) { lines.push_back(line); };
   const Motion motion = run_scene(pendulum, options);
   ASSERT_EQ(static_cast<int>(lines.size()), motion.iterations + 1);
   for (std::size_t k = 0; k < lines.size(); ++k) EXPECT_EQ(lines[k].iteration, static_cast<int>(k));
