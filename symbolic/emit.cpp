@@ -11,54 +11,62 @@
 namespace spacetime::symbolic {
 namespace {
 
-bool is_leaf(const Graph& graph, Expr e) { return graph.node(e).kind != Graph::Kind::operation; }
-
 std::size_t key(Signed value) { return std::size_t{value.node.id} * 2 + (value.minus ? 1 : 0); }
 std::size_t key(Expr leaf) { return key(Signed{leaf}); }
 
-// Writes operations in an order in which each is computed shortly before it is needed.
-class Schedule {
- public:
-  Schedule(Graph& graph, Lowering& lowering) : graph_(graph), lowering_(lowering) {}
+// How much of the program needs an operation.
+enum Phase : std::uint8_t { for_values, for_jacobian, for_hessian, for_nothing };
 
-  void compute(Expr root) {
-    std::vector<std::pair<Signed, Operation>> stack;
-    // Whether the value has to be made first.
-    const auto visit = [&](Signed value) {
-      if (is_leaf(graph_, value.node) && !value.minus) {
-        leaves_.push_back(value.node);
-        return false;
-      }
-      if (is_done(value)) return false;
-      stack.emplace_back(value, lowering_.operation(value));
-      return true;
+struct Planned {
+  Signed value;
+  Operation operation;
+  Phase phase = for_nothing;
+};
+
+// What has to be computed: phase by phase, and in each in the order in which the graph was built.  That is a better
+// order than one in which every result is used as soon as it is there, which keeps more values alive and makes each
+// operation wait for the one before.
+class Plan {
+ public:
+  Plan(Graph& graph, Lowering& lowering) : graph_(graph), lowering_(lowering), phase_(2 * graph.size(), for_nothing) {}
+
+  void want(Expr root, Phase phase) { want(lowering_.value(root), phase); }
+
+  std::vector<Planned> operations() {
+    std::vector<Planned> result;
+    const auto plan = [&](Signed value) {
+      const auto phase = phase_[key(value)];
+      if (phase == for_nothing) return;
+      const auto operation = lowering_.operation(value);
+      for (int k = 0; k < info(operation.op).arity; ++k) want(operation.operand[k], phase);
+      result.push_back({value, operation, phase});
     };
-    visit(lowering_.value(root));
-    while (!stack.empty()) {
-      const auto [value, operation] = stack.back();
-      bool ready = true;
-      for (int k = 0; k < info(operation.op).arity && ready; ++k) ready = !visit(operation.operand[k]);
-      if (!ready) continue;
-      stack.pop_back();
-      if (is_done(value)) continue;
-      done_[key(value)] = true;
-      rows_.emplace_back(value, operation);
+    for (std::size_t id = phase_.size() / 2; id-- > 0;) {
+      const Signed plain{{static_cast<std::uint32_t>(id)}, false}, negated{plain.node, true};
+      const bool plain_first = lowering_.is_made_by_negation(plain);  // then it wants the other
+      plan(plain_first ? plain : negated);
+      plan(plain_first ? negated : plain);
     }
+    std::ranges::reverse(result);
+    std::ranges::stable_sort(result, {}, &Planned::phase);
+    return result;
   }
 
-  const std::vector<std::pair<Signed, Operation>>& rows() const { return rows_; }
   const std::vector<Expr>& leaves() const { return leaves_; }
 
  private:
-  bool is_done(Signed value) {
-    if (key(value) >= done_.size()) done_.resize(2 * graph_.size());
-    return done_[key(value)];
+  bool is_leaf(Signed value) const { return !value.minus && graph_.node(value.node).kind != Graph::Kind::operation; }
+  void want(Signed value, Phase phase) {
+    if (is_leaf(value)) {
+      leaves_.push_back(value.node);
+    } else {
+      phase_[key(value)] = std::min(phase_[key(value)], phase);
+    }
   }
 
   Graph& graph_;
   Lowering& lowering_;
-  std::vector<bool> done_;  // by key
-  std::vector<std::pair<Signed, Operation>> rows_;
+  std::vector<Phase> phase_;  // by key
   std::vector<Expr> leaves_;
 };
 
@@ -117,17 +125,23 @@ Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives
   for (const auto& entry : first) roots.push_back(entry.value);
   for (const auto& entry : second) roots.push_back(entry.value);
   Lowering lowering(graph, roots);
-  Schedule schedule(graph, lowering);
+  Plan plan(graph, lowering);
+  for (const auto value : values) plan.want(value, for_values);
+  for (const auto& entry : first) plan.want(entry.value, for_jacobian);
+  for (const auto& entry : second) plan.want(entry.value, for_hessian);
+  const auto operations = plan.operations();
+
   Program program;
-  for (const auto value : values) schedule.compute(value);
-  program.value_operations = static_cast<std::int32_t>(schedule.rows().size());
-  for (const auto& entry : first) schedule.compute(entry.value);
-  program.jacobian_operations = static_cast<std::int32_t>(schedule.rows().size());
-  for (const auto& entry : second) schedule.compute(entry.value);
+  const auto end_of = [&](Phase phase) {
+    return static_cast<std::int32_t>(std::ranges::upper_bound(operations, phase, {}, &Planned::phase) -
+                                     operations.begin());
+  };
+  program.value_operations = end_of(for_values);
+  program.jacobian_operations = end_of(for_jacobian);
 
   // Numbering: inputs, numbers, operations.
   std::vector<std::int32_t> index(2 * graph.size());
-  const auto leaves = leaves_in_order(graph, schedule.leaves(), inputs);
+  const auto leaves = leaves_in_order(graph, plan.leaves(), inputs);
   for (const auto leaf : leaves) {
     const auto number = graph.constant(leaf);
     if (!number) {
@@ -138,7 +152,7 @@ Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives
     if (program.numbers.empty() || program.numbers.back() != *number) program.numbers.push_back(*number);
     index[key(leaf)] = program.value_count() - 1;
   }
-  for (const auto& [value, operation] : schedule.rows()) {
+  for (const auto& [value, operation, phase] : operations) {
     const int arity = info(operation.op).arity;
     const auto operand = [&](int k) { return k < arity ? index[key(operation.operand[k])] : 0; };
     index[key(value)] = program.value_count();

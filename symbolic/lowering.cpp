@@ -273,9 +273,13 @@ void Lowering::settle() {
 
 Signed Lowering::value(Expr root) { return literal(stripped(root)); }
 
+bool Lowering::is_made_by_negation(Signed value) const {
+  return value.node.id < rows_.size() && !fits(rows_[value.node.id], value.minus);
+}
+
 Operation Lowering::operation(Signed value) {
   const auto& row = rows_[value.node.id];
-  if (!fits(row, value.minus)) return {Op::negate, {Signed{value.node, !value.minus}}};
+  if (is_made_by_negation(value)) return {Op::negate, {Signed{value.node, !value.minus}}};
   auto x = arranged(row, value.minus);
   auto op = row.op;
   if (row.form == Form::sum) {

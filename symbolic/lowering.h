@@ -34,6 +34,8 @@ class Lowering {
 
   // A root as a value to be computed; leaves stand for themselves, never with minus.
   Signed value(Expr root);
+  // Whether a value is made from its own negative.
+  bool is_made_by_negation(Signed value) const;
   // How a value that is no leaf is made, from values in the same sense.
   Operation operation(Signed value);
 
