@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "symbolic/compiler.h"
 #include "symbolic/model.h"
 #include "symbolic/parser.h"
 #include "symbolic/statement.h"
@@ -17,29 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-// Sizes of everything emitted, derivatives included, as if the programs had not been lowered: a product and a sum
-// rounded once count as two.
-void count(const Program& program, Statistics& statistics) {
-  const auto first = static_cast<std::size_t>(program.first_operation());
-  std::vector<double> tree(static_cast<std::size_t>(program.value_count()), 1.0);
-  for (std::size_t i = 0; i < program.op.size(); ++i) {
-    const int arity = info(program.op[i]).arity;
-    double& size = tree[first + i];
-    if (arity > 0) size += tree[static_cast<std::size_t>(program.a[i])];
-    if (arity > 1) size += tree[static_cast<std::size_t>(program.b[i])];
-    if (arity > 2) size += tree[static_cast<std::size_t>(program.c[i])];
-    if (program.op[i] == Op::multiply_add) {
-      ++size;
-      ++statistics.shared_nodes;
-    }
-  }
-  statistics.shared_nodes += tree.size();
-  statistics.operations += program.op.size();
-  for (const auto value : program.values) statistics.tree_nodes += tree[static_cast<std::size_t>(value)];
-  for (const auto& entry : program.jacobian) statistics.tree_nodes += tree[static_cast<std::size_t>(entry.value)];
-  for (const auto& entry : program.hessian) statistics.tree_nodes += tree[static_cast<std::size_t>(entry.value)];
 }
 
 void finish(std::vector<Diagnostic>& diagnostics) {
@@ -64,40 +42,47 @@ std::string add_program(Model& model, std::span<const Expr> values, Derivatives 
   const auto start = Clock::now();
   double differentiating = 0;
   Graph own;
-  Program program = emit(own, copy(model.graph, model.fingerprints, values, own), derivatives, &differentiating);
-  std::string key = hash(program);
-  model.problem.programs.try_emplace(key, std::move(program));
-  model.differentiate_milliseconds += differentiating;
-  model.emit_milliseconds += milliseconds_since(start) - differentiating;
-  return key;
+  const std::vector<Expr> copied = copy(model.graph, model.fingerprints, values, own);
+  const Programs::Emitted& emitted = model.programs.of(own, copied, derivatives, differentiating);
+  if (model.problem.programs.try_emplace(emitted.key, emitted.program).second) {
+    model.statistics.tree_nodes += emitted.tree_nodes;
+    model.statistics.shared_nodes += emitted.shared_nodes;
+    model.statistics.operations += emitted.program.op.size();
+    ++model.statistics.programs;
+  }
+  model.statistics.milliseconds.differentiate += differentiating;
+  model.statistics.milliseconds.emit += milliseconds_since(start) - differentiating;
+  return emitted.key;
 }
 
-Compilation compile(std::string_view text) {
+Compilation compile(std::string_view text) { return Compiler().compile(text); }
+
+Compilation Compiler::compile(std::string_view text) {
   Compilation out;
   const auto start = Clock::now();
   if (text.size() > largest_scene) {
     out.diagnostics.push_back({{1, 1, 1}, "the scene is larger than 16 MiB: split it", {}});
     return out;
   }
+  programs_.begin_text();
+  const std::size_t derived = programs_.derived();
   const Scene scene = parse(text, out.diagnostics);
-  auto& milliseconds = out.statistics.milliseconds;
-  milliseconds.parse = milliseconds_since(start);
+  const double parsing = milliseconds_since(start);
   if (scene.statements.empty()) {
     if (out.diagnostics.empty())
       out.diagnostics.push_back({{1, 1, 1}, "the scene is empty: begin it with a line such as 'time [0, 2]'", {}});
     return out;
   }
-  Model model(scene, out.diagnostics);
+  Model model(scene, programs_, out.diagnostics);
   elaborate_scene(model);
   finish(out.diagnostics);
+  out.statistics = model.statistics;
+  out.statistics.derived = programs_.derived() - derived;
+  auto& milliseconds = out.statistics.milliseconds;
+  milliseconds.parse = parsing;
   milliseconds.total = milliseconds_since(start);
-  milliseconds.differentiate = model.differentiate_milliseconds;
-  milliseconds.emit = model.emit_milliseconds;
   milliseconds.build = milliseconds.total - milliseconds.parse - milliseconds.differentiate - milliseconds.emit;
-  if (!out.diagnostics.empty()) return out;
-  for (const auto& [key, program] : model.problem.programs) count(program, out.statistics);
-  out.statistics.programs = model.problem.programs.size();
-  out.problem = std::move(model.problem);
+  if (out.diagnostics.empty()) out.problem = std::move(model.problem);
   return out;
 }
 

@@ -16,6 +16,7 @@ struct Statistics {
   std::size_t shared_nodes = 0;  // the same, shared
   std::size_t operations = 0;    // in all programs
   std::size_t programs = 0;
+  std::size_t derived = 0;  // of these, emitted anew (by a Compiler that remembers the others)
   struct {
     double parse = 0, build = 0, differentiate = 0, emit = 0, total = 0;
   } milliseconds;

@@ -10,6 +10,7 @@
 
 #include "common/diagnostic.h"
 #include "common/problem.h"
+#include "symbolic/compiler.h"
 #include "symbolic/creature.h"
 #include "symbolic/emit.h"
 #include "symbolic/facts.h"
@@ -103,11 +104,12 @@ struct Frozen {  // a constant whose value has been built in
 };
 
 struct Model {
-  Model(const Scene& of, std::vector<Diagnostic>& to) : scene(of), diagnostics(to) {}
+  Model(const Scene& of, Programs& known, std::vector<Diagnostic>& to) : scene(of), programs(known), diagnostics(to) {}
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
   const Scene& scene;
+  Programs& programs;
   std::vector<Diagnostic>& diagnostics;
   Graph graph;
   Facts facts{graph};
@@ -157,7 +159,7 @@ struct Model {
   std::optional<Span> first_action;
   bool refined = false;  // by an action: coefficients are as many as the motion says
 
-  double differentiate_milliseconds = 0, emit_milliseconds = 0;
+  Statistics statistics;
 };
 
 void report(Model& model, const Span& span, std::string message, std::vector<Diagnostic::Note> notes = {});

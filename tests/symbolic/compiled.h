@@ -34,6 +34,7 @@ struct State {
   std::map<std::pair<std::string, int>, double> dofs;  // by name and derivative
   double time = 0;
   std::map<std::string, double> constants;  // where they differ from the problem's
+  std::map<std::string, double> parameters;
   std::vector<double> functionals;
 };
 
@@ -49,6 +50,7 @@ inline std::vector<double> run(const Problem& problem, const std::string& key, c
     if (input.kind == InputKind::dof) value = state.dofs.at({input.name, input.derivative});
     if (input.kind == InputKind::time) value = state.time;
     if (input.kind == InputKind::functional) value = state.functionals.at(static_cast<std::size_t>(input.index));
+    if (input.kind == InputKind::parameter) value = state.parameters.at(input.name);
     if (input.kind == InputKind::constant) {
       const auto set = state.constants.find(input.name);
       if (set != state.constants.end())

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "tests/symbolic/compiled.h"
@@ -323,6 +324,305 @@ TEST(Compile, ActionsInOrder) {
   EXPECT_EQ(std::get<Solve>(problem.actions[0].action), (Solve{5, 1e-6}));
   EXPECT_EQ(std::get<Iterate>(problem.actions[1].action).iterations, 0);
   EXPECT_EQ(std::get<Solve>(problem.actions[2].action), Solve{});
+}
+
+TEST(Compile, InequalitiesAreAtMostZero) {
+  const Problem problem = problem_of(head + R"(constrain x <= y at 0
+constrain x >= y at 0 weight 2
+constrain -1 <= (x, y) <= (2, 3) over [0, 1]
+constrain 5 >= x >= 4 at 0
+constrain x = 1 at 0
+)");
+  using Relation = Constraint::Relation;
+  const State at = state(3, 0, 0, 7);
+  const auto values = [&](std::size_t i) { return run(problem, problem.constraints.at(i).program, at); };
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(problem.constraints[i].relation, Relation::at_most) << i;
+  EXPECT_EQ(problem.constraints[4].relation, Relation::equal);
+  EXPECT_EQ(values(0), std::vector{-4.0});
+  EXPECT_EQ(values(1), std::vector{4.0});
+  EXPECT_EQ(problem.constraints[1].weight, (Quantity{2, {}, 0}));
+  EXPECT_EQ(values(2), (std::vector{-1.0 - 3, 3.0 - 2, -1.0 - 7, 7.0 - 3}));
+  EXPECT_EQ(values(3), (std::vector{4.0 - 3, 3.0 - 5}));
+  EXPECT_FALSE(problem.programs.at(problem.constraints[2].program).jacobian.empty());
+}
+
+TEST(Compile, BoundsFollowConstants) {
+  const Problem problem = problem_of(R"(time [0, 1]
+trajectory bspline spans 4
+constant a = 2
+dof x = 1 in [-a, a]
+creature arm { link one { revolute c in [0, 1]; a 1 } }
+parameter m = 3 in [a, 4]
+dof free
+)");
+  State later;
+  later.constants = {{"a", 3}};
+  EXPECT_EQ(value_of(problem, problem.dofs[0].lower.value(), later), -3);
+  EXPECT_EQ(value_of(problem, problem.dofs[0].upper.value()), 2);
+  EXPECT_EQ(problem.dofs[1].upper, (Quantity{1, {}, 0}));
+  EXPECT_FALSE(problem.dofs[2].lower.has_value());
+  EXPECT_EQ(value_of(problem, problem.parameters.at(0).lower.value(), later), 3);
+  EXPECT_EQ(problem.parameters[0].upper, (Quantity{4, {}, 0}));
+}
+
+TEST(Compile, ConditionsAreProgramsOfOneOutput) {
+  const Problem problem = problem_of(head + R"(constant a = 1
+constrain x >= 0 when t < a
+constrain x = 0 over [0, 1] when not (y > 0 and t < 1)
+constrain 2 = a when t < 1
+constrain x = 0 at 0
+)");
+  State now = state(0, 0, 0, 1), later = now;
+  now.time = 0.5, later.time = 1.5;
+  const auto holds = [&](std::size_t i, const State& at) {
+    const Condition& condition = problem.constraints.at(i).condition.value();
+    const Program& program = problem.programs.at(condition.program);
+    EXPECT_EQ(program.values.size(), 1U);
+    EXPECT_TRUE(program.jacobian.empty());
+    return run(problem, condition.program, at).at(0) != 0;
+  };
+  EXPECT_TRUE(holds(0, now));
+  EXPECT_FALSE(holds(0, later));
+  later.constants = {{"a", 2}};
+  EXPECT_TRUE(holds(0, later));
+  EXPECT_FALSE(holds(1, now));
+  EXPECT_TRUE(holds(1, later));
+  // What depends on time through its condition alone holds over time.
+  EXPECT_EQ(problem.constraints[2].scope.kind, Scope::Kind::whole);
+  EXPECT_FALSE(problem.constraints[3].condition.has_value());
+}
+
+TEST(Compile, ParametersAreUnknowns) {
+  const Problem problem = problem_of(head + R"(constant k = 2
+parameter m = 3*k
+constrain m*x = m^2 at 1
+constrain 1 <= m
+minimize energy: m*integral(x^2) + (m - 1)^2
+let h = m*x
+creature cart { link body { prismatic X axis (1, 0, 0); mass m; sphere m/10 } }
+)");
+  EXPECT_EQ(problem.parameters.at(0).name, "m");
+  EXPECT_EQ(value_of(problem, problem.parameters[0].start), 6);
+  State at = state(3, 0, 0);
+  at.parameters = {{"m", 5}};
+  EXPECT_EQ(run(problem, problem.constraints[0].program, at), std::vector{15.0 - 25});
+  EXPECT_EQ(problem.programs.at(problem.constraints[0].program).jacobian.size(), 2U);
+  EXPECT_EQ(problem.constraints[1].scope.kind, Scope::Kind::once);
+  EXPECT_EQ(run(problem, problem.constraints[1].program, at), std::vector{-4.0});
+  const auto& pieces = problem.objective.at(0).pieces;
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(run(problem, pieces[0].program, at), std::vector{45.0});
+  EXPECT_EQ(run(problem, pieces[1].program, at), std::vector{16.0});
+  EXPECT_EQ(plotted(problem, "h", at), std::vector{15.0});
+  at.dofs[{"cart.X", 0}] = at.dofs[{"cart.X", 1}] = 0;
+  at.dofs[{"cart.X", 2}] = 7;
+  EXPECT_EQ(plotted(problem, "cart.force", at), std::vector{35.0});
+  EXPECT_DOUBLE_EQ(value_of(problem, problem.bodies.at(0).size.at(0)), 0.6);  // drawn as it starts
+}
+
+TEST(Compile, FunctionsOfOnesOwnTakeAnything) {
+  const State at = state(0.3, -0.7, 1.1, 0.9, 0.2, -0.4);
+  const std::string functions = head + R"(constant k = 2
+define square(a) = k*a^2
+define far(p, q) = norm(p - q) > 1
+define pair(a) = (a, square(a))
+define rate(a) = a'
+define mean(a) = integral(a)/2
+)";
+  const auto value = [&](const std::string& expression) {
+    return plotted(problem_of(functions + "let value = " + expression), "value", at);
+  };
+  EXPECT_DOUBLE_EQ(value("square(x + y)").at(0), 2 * 1.2 * 1.2);
+  EXPECT_DOUBLE_EQ(value("pair(square(x)).y").at(0), 2 * std::pow(2 * 0.3 * 0.3, 2));
+  EXPECT_EQ(value("if(far((x, y), (1, 2)), 1, 0)"), std::vector{1.0});
+  EXPECT_DOUBLE_EQ(value("rate(x^2)").at(0), 2 * 0.3 * -0.7);
+  EXPECT_DOUBLE_EQ(value("square(square(x)')").at(0), 2 * std::pow(4 * 0.3 * -0.7, 2));
+  EXPECT_EQ(problem_of(functions + "minimize mean(x^2)").objective[0].pieces[0].kind, Piece::Kind::integral);
+}
+
+TEST(Compile, FunctionsCannotMakeAScenesWorkEndless) {
+  std::ostringstream text;
+  text << head << "define f0(a) = a + x\n";
+  for (int i = 1; i < 60; ++i)
+    text << "define f" << i << "(a) = sin(f" << i - 1 << "(a + 1)) + cos(f" << i - 1 << "(2*a))\n";
+  const auto result = compile(text.str() + "let z = f59(x)\n");
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_NE(result.diagnostics[0].message.find("too large"), std::string::npos);
+}
+
+TEST(Compile, WhatIsEliminatedIsNoUnknown) {
+  const Problem problem = problem_of(head + R"(dof z
+eliminate x = sin(y) + t
+let h = x''
+constrain x' = 1 at 1
+minimize integral(x^2 + z^2)
+)");
+  ASSERT_EQ(problem.dofs.size(), 2U);
+  EXPECT_EQ(problem.dofs[0].name, "y");
+  EXPECT_EQ(problem.dofs[1].name, "z");
+  for (const auto& [key, program] : problem.programs)
+    for (const Input& input : program.inputs) EXPECT_NE(input.name, "x");
+  State at = state(99, 99, 99, 0.9, 0.2, -0.4);
+  at.time = 0.5;
+  EXPECT_DOUBLE_EQ(plotted(problem, "x", at).at(0), std::sin(0.9) + 0.5);
+  EXPECT_DOUBLE_EQ(plotted(problem, "h", at).at(0), std::cos(0.9) * -0.4 - std::sin(0.9) * 0.2 * 0.2);
+  EXPECT_DOUBLE_EQ(run(problem, problem.constraints[0].program, at).at(0), std::cos(0.9) * 0.2);
+}
+
+// A pendulum whose second link is kept at a right angle in the world is one whose angle is given.
+TEST(Compile, JointsMayBeEliminated) {
+  const std::string links = R"(time [0, 2]
+trajectory bspline spans 8
+creature arm {
+  gravity (0, -9.81, 0)
+  link a { revolute p; a 1; mass 1; rod }
+  link b { revolute r; a 0.5; mass 2; rod }
+  point hand on b (0.1, 0, 0)
+  force on hand = (-arm.hand.x', arm.r, 0)
+}
+)";
+  const Problem whole = problem_of(links);
+  const Problem reduced = problem_of(links + "eliminate arm.r = pi/2 - arm.p^2\nkeyframe 1: arm.p = 1\n");
+  ASSERT_EQ(reduced.dofs.size(), 1U);
+  const double p = 0.4, v = -0.7, a = 1.3;
+  State at, both;
+  at.dofs = {{{"arm.p", 0}, p}, {{"arm.p", 1}, v}, {{"arm.p", 2}, a}};
+  both.dofs = at.dofs;
+  both.dofs[{"arm.r", 0}] = std::numbers::pi / 2 - p * p;
+  both.dofs[{"arm.r", 1}] = -2 * p * v;
+  both.dofs[{"arm.r", 2}] = -2 * (p * a + v * v);
+  for (const std::string name : {"arm.hand", "arm.force", "arm.kinetic", "arm.r.force", "arm.potential", "arm.com"}) {
+    const auto expected = plotted(whole, name, both), found = plotted(reduced, name, at);
+    ASSERT_EQ(expected.size(), found.size()) << name;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-12) << name;
+  }
+  EXPECT_DOUBLE_EQ(plotted(reduced, "arm.r", at).at(0), std::numbers::pi / 2 - p * p);
+}
+
+TEST(Compile, EveryAction) {
+  const Problem problem = problem_of(head + R"(constant a = 1
+constrain goal: x = a at 1
+minimize energy: integral(x''^2)
+solve method sqp92 linear cg iterations 10 tolerance 1e-6 starts 3
+iterate 5
+window [a/2, 1] of x, y
+window all
+refine [0, a] of x times 2
+refine auto tolerance a/100
+shake amplitude 0.1*a seed 3 of x
+filter strength 0.5 of x, x
+damp a
+adapt tolerance 1e-3 levels 2
+lock level 3
+set a = a + 1
+weight goal = 3*a
+weight goal = inf
+enable goal
+disable energy
+replace goal: x = 3 at a weight 2
+replace energy: integral(y^2) weight 2
+scope goal over [0, a] every a/10
+bound x in [-a, a]
+key a/2: x = a, y = 2
+control x 3 = a
+reset
+delete goal
+)");
+  ASSERT_EQ(problem.actions.size(), 24U);
+  State now;
+  const auto number = [&](const Quantity& q) { return value_of(problem, q, now); };
+  const auto action = [&]<class T>(std::size_t i, const T&) { return std::get<T>(problem.actions.at(i).action); };
+  const Solve solve = action(0, Solve{});
+  EXPECT_EQ(solve, (Solve{10, 1e-6, Solve::Method::sqp92, true, 3}));
+  EXPECT_EQ(action(1, Iterate{}).iterations, 5);
+  const Window window = action(2, Window{});
+  EXPECT_EQ(number(window.interval.value().from), 0.5);
+  EXPECT_EQ(window.dofs, (DofNames{"x", "y"}));
+  EXPECT_EQ(action(3, Window{}), Window{});
+  const Refine refine = action(4, Refine{});
+  EXPECT_EQ(number(refine.interval.value().to), 1);
+  EXPECT_EQ(refine.times, 2);
+  EXPECT_EQ(number(action(5, Refine{}).automatic.value()), 0.01);
+  EXPECT_EQ(action(6, Shake{}).seed, 3);
+  EXPECT_EQ(number(action(6, Shake{}).amplitude), 0.1);
+  EXPECT_EQ(action(7, Smooth{}).dofs, DofNames{"x"});
+  EXPECT_EQ(number(action(8, Damp{}).limit), 1);
+  EXPECT_EQ(action(9, Adapt{}).levels, 2);
+  EXPECT_EQ(action(10, Lock{}).level, 3);
+  EXPECT_EQ(action(11, SetConstant{}).constant, "a");
+  EXPECT_EQ(number(action(11, SetConstant{}).value), 2);
+  now.constants = {{"a", 2}};
+  EXPECT_EQ(number(action(12, SetWeight{}).weight.value()), 6);
+  EXPECT_FALSE(action(13, SetWeight{}).weight.has_value());
+  EXPECT_EQ(action(14, Enable{}).name, "goal");
+  EXPECT_EQ(action(15, Disable{}).name, "energy");
+  const Constraint& goal = problem.constraints.at(static_cast<std::size_t>(action(16, Replace{}).with));
+  EXPECT_TRUE(goal.replacement);
+  EXPECT_EQ(goal.name, "goal");
+  EXPECT_EQ(goal.since, 16);
+  EXPECT_EQ(run(problem, goal.program, state(5, 0, 0)), std::vector{2.0});
+  const Term& energy = problem.objective.at(static_cast<std::size_t>(action(17, Replace{}).with));
+  EXPECT_TRUE(energy.replacement);
+  EXPECT_EQ(energy.weight.number, 2);
+  EXPECT_NE(energy.pieces.at(0).program, problem.objective.at(0).pieces.at(0).program);
+  EXPECT_EQ(action(18, Rescope{}).scope.kind, Scope::Kind::every);
+  EXPECT_EQ(number(action(19, Bound{}).lower), -2);
+  const PullKeys keys = action(20, PullKeys{});
+  EXPECT_EQ(number(keys.time), 1);
+  EXPECT_EQ(keys.keys.at(1), (Key{"y", {2, {}, 0}}));
+  EXPECT_EQ(action(21, Control{}).index, 3);
+  EXPECT_EQ(action(22, Reset{}), Reset{});
+  EXPECT_EQ(action(23, Delete{}).name, "goal");
+}
+
+TEST(Compile, DeclarationsBehindActionsTakeEffectThere) {
+  const Problem problem = problem_of(head + R"(constrain first: x = 0 at 0
+solve
+constant late = 2
+let h = late*x
+constrain second: x = late at 1
+minimize calm: integral(x''^2)
+iterate 3
+dof z
+constrain x = 0 at 2
+minimize integral(x^2)
+)");
+  EXPECT_EQ(problem.constraints.at(0).since, 0);
+  EXPECT_EQ(problem.constraints.at(1).since, 1);
+  EXPECT_EQ(problem.constraints.at(2).since, 2);
+  EXPECT_EQ(problem.constraints.at(2).name, "constraint 3");
+  EXPECT_EQ(problem.objective.at(0).since, 1);
+  EXPECT_EQ(problem.objective.at(1).since, 2);
+  EXPECT_NE(problem.objective[0].pieces.at(0).program, problem.objective[1].pieces.at(0).program);
+  EXPECT_EQ(problem.dofs.size(), 3U);
+}
+
+TEST(Compile, ReplacementsDoNotCount) {
+  const Problem problem = problem_of(head + "constrain a: x = 0 at 0\nreplace a: x = 1 at 0\nconstrain x = 0 at 1\n");
+  EXPECT_EQ(problem.constraints.at(2).name, "constraint 2");
+}
+
+TEST(Compile, SetConstantsFollowInLaterStatements) {
+  const Problem problem = problem_of(head + R"(constant a = 1
+constant b = 2*a
+set a = 3
+iterate a
+iterate b
+set b = 5
+set a = 4
+iterate b
+)");
+  EXPECT_EQ(std::get<Iterate>(problem.actions[1].action).iterations, 3);
+  EXPECT_EQ(std::get<Iterate>(problem.actions[2].action).iterations, 6);
+  EXPECT_EQ(std::get<Iterate>(problem.actions[5].action).iterations, 5);
+}
+
+TEST(Compile, FrozenConstantsSayWhere) {
+  const Problem problem = problem_of(
+      "constant a = 1\nconstant T = 2*a\nconstant free = 3\ntime [0, T]\ntrajectory bspline spans 8\ndof x\n");
+  EXPECT_EQ(problem.constants[0].frozen, (Place{4, 1}));
+  EXPECT_EQ(problem.constants[1].frozen, (Place{4, 1}));
+  EXPECT_FALSE(problem.constants[2].frozen.has_value());
 }
 
 TEST(Compile, IsAPureFunctionOfTheText) {

@@ -1,0 +1,52 @@
+// Compiling edited texts again: programs are remembered by what they compute, so that an edit derives and emits only
+// what it changed.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "symbolic/compile.h"
+#include "symbolic/emit.h"
+#include "symbolic/graph.h"
+
+namespace spacetime::symbolic {
+
+// Programs by the expressions they compute and the derivatives they have.  Those that the last two texts did not use
+// are forgotten, so that it does not grow with a session.
+class Programs {
+ public:
+  struct Emitted {
+    std::string key;  // the program's hash
+    Program program;
+    double tree_nodes = 0;         // as in Statistics
+    std::size_t shared_nodes = 0;  // ...
+    int used = 0;                  // by which text last
+  };
+
+  // The program of expressions that make up a whole graph (fingerprint.h's `copy` gives such).  Emits it into that
+  // graph where it is not known yet, adding the milliseconds spent on derivatives.
+  const Emitted& of(Graph& graph, std::span<const Expr> values, Derivatives derivatives, double& differentiating);
+
+  void begin_text();                                // forgets what is old
+  std::size_t derived() const { return derived_; }  // how many have been emitted since the beginning
+
+ private:
+  std::unordered_map<std::string, std::unique_ptr<Emitted>> programs_;
+  int text_ = 0;
+  std::size_t derived_ = 0;
+};
+
+// What `compile` does, for one text after another: each result is that of the text alone.
+class Compiler {
+ public:
+  Compilation compile(std::string_view text);
+
+ private:
+  Programs programs_;
+};
+
+}  // namespace spacetime::symbolic
