@@ -77,9 +77,10 @@ class Check {
     dofs(damp.dofs, path);
   }
 
-  void action(const Adapt& adapt, const std::string& path) const {
+  void action(const Adapt& adapt, const std::string& path) {
     declared_.positive(adapt.tolerance, path + "/tolerance");
     if (adapt.levels.value_or(0) < 0) fail(path + "/levels", "must not be negative");
+    refined_ = true;
   }
 
   void action(const Lock& lock, const std::string& path) const {
