@@ -269,6 +269,7 @@ std::optional<Expr> time_derivative(Graph& graph, Expr e) {
   const auto needed = reachable(graph, {&e, 1});
   Guards guards(graph);
   std::vector<Expr> dot(needed.size());
+  std::vector<std::uint8_t> is_third(needed.size());  // needs a derivative that trajectories do not have
   for (std::uint32_t id = 0; id < needed.size(); ++id) {
     if (!needed[id]) continue;
     const auto n = graph.node({id});
@@ -276,23 +277,30 @@ std::optional<Expr> time_derivative(Graph& graph, Expr e) {
       Input input = graph.input_of({id});
       if (input.kind == InputKind::time) dot[id] = graph.number(1);
       if (input.kind != InputKind::dof && input.kind != InputKind::signal) continue;
-      if (++input.derivative > 2) return std::nullopt;
-      dot[id] = graph.input(input);
+      if (++input.derivative > 2) {
+        is_third[id] = 1;
+      } else {
+        dot[id] = graph.input(input);
+      }
     } else if (n.kind == Graph::Kind::operation) {
       const int arity = info(n.op).arity;
       bool moves = false;
-      for (int k = 0; k < arity; ++k) moves = moves || dot[operands(n)[k].id] != Expr{};
+      for (int k = 0; k < arity; ++k) {
+        const auto operand = operands(n)[k].id;
+        moves = moves || dot[operand] != Expr{} || is_third[operand];
+      }
       if (!moves) continue;
       const auto local = local_derivatives(graph, guards, {id}, false);
       Weight sum;
       for (int k = 0; k < arity; ++k) {
         const Expr rate = dot[operands(n)[k].id];
+        if (is_third[operands(n)[k].id] && !local.d[k].is_zero()) is_third[id] = 1;
         if (rate != Expr{}) sum = guards.plus(sum, guards.times(local.d[k], {rate}));
       }
       dot[id] = guards.total(sum);
     }
   }
-  return dot[e.id];
+  return is_third[e.id] ? std::nullopt : std::optional(dot[e.id]);
 }
 
 std::vector<Entry> jacobian(Graph& graph, std::span<const Expr> values, std::span<const Expr> inputs) {

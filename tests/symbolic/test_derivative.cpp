@@ -49,6 +49,9 @@ TEST_F(DerivativeTest, OfTimeGoesToTheNextDerivative) {
   EXPECT_EQ(g.input_of(*time_derivative(g, signal)).derivative, 1);
   EXPECT_FALSE(time_derivative(g, a));
   EXPECT_FALSE(time_derivative(g, g.add(x, g.sine(a))));
+  EXPECT_EQ(time_derivative(g, g.select(g.operation(Op::less, a, n(0)), x, n(2))),
+            g.select(g.operation(Op::less, a, n(0)), v, n(0)));  // a condition has no derivative
+  EXPECT_EQ(time_derivative(g, g.operation(Op::sign, a)), n(0));
   const auto twice = time_derivative(g, *time_derivative(g, g.multiply(x, x)));
   ASSERT_TRUE(twice);
   std::vector<double> inputs(g.inputs().size());
