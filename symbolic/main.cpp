@@ -1,46 +1,23 @@
 // spacetime-symbolic: scene text in, a problem or diagnostics out.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 #include <iostream>
-#include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "common/files.h"
+#include "protocol/diagnostics_json.h"
 #include "protocol/problem_json.h"
+#include "symbolic/colour.h"
 #include "symbolic/compile.h"
 
 namespace {
 
-using spacetime::InputError;
-
-std::string read(const std::string& file) {
-  if (file == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  if (std::filesystem::is_directory(file)) throw InputError("cannot read '" + file + "': it is a directory");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError("cannot read '" + file + "': " + std::generic_category().message(errno));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (in.bad()) throw InputError("cannot read '" + file + "' to its end");
-  return text;
-}
-
-// Beside the file first, so that a reader never sees half a document.
-void write(const std::string& file, const std::string& document) {
-  if (file.empty()) {
-    std::cout << document << std::flush;
-    if (!std::cout) throw InputError("cannot write to standard output");
-    return;
-  }
-  const std::string beside = file + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  out << document << std::flush;
-  if (!out) throw InputError("cannot write '" + beside + "'");
-  out.close();
-  std::error_code error;
-  std::filesystem::rename(beside, file, error);
-  if (error) throw InputError("cannot rename '" + beside + "' to '" + file + "': " + error.message());
-}
+using spacetime::Diagnostic;
 
 void print(const spacetime::symbolic::Statistics& s) {
   const auto& ms = s.milliseconds;
@@ -51,16 +28,37 @@ void print(const spacetime::symbolic::Statistics& s) {
                ms.total);
 }
 
-int compile(const std::string& file, const std::string& output, bool statistics) {
-  const std::string text = read(file);
-  const auto result = spacetime::symbolic::compile(text);
+// For people who look at a terminal and have not asked for plain text (no-color.org).
+bool is_coloured() {
+  const char* plain = std::getenv("NO_COLOR");
+  return (!plain || *plain == '\0') && isatty(STDERR_FILENO) == 1;
+}
+
+void print(const std::vector<Diagnostic>& diagnostics, const std::string& file, std::string_view text) {
   // Columns do not count a byte-order mark.
-  const std::string_view shown = std::string_view(text).substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
-  for (const auto& diagnostic : result.diagnostics)
-    std::cerr << render(diagnostic, file == "-" ? "<standard input>" : file, shown);
-  if (statistics) print(result.statistics);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const bool coloured = is_coloured();
+  for (const Diagnostic& diagnostic : diagnostics)
+    std::cerr << (coloured ? spacetime::symbolic::render_coloured(diagnostic, file, text)
+                           : spacetime::render(diagnostic, file, text));
+}
+
+struct Options {
+  std::string file, output = "-";
+  bool json = false, statistics = false;
+};
+
+int compile(const Options& options) {
+  const std::string text = spacetime::read_text(options.file);
+  const std::string shown = options.file == "-" ? "<standard input>" : options.file;
+  const auto result = spacetime::symbolic::compile(text);
+  if (options.json)
+    std::cerr << spacetime::write_diagnostics(result.diagnostics, shown);
+  else
+    print(result.diagnostics, shown, text);
+  if (options.statistics) print(result.statistics);
   if (!result.problem) return 1;
-  write(output, spacetime::write(*result.problem));
+  spacetime::write_text(options.output, spacetime::write(*result.problem));
   return 0;
 }
 
@@ -69,17 +67,23 @@ int compile(const std::string& file, const std::string& output, bool statistics)
 int main(int argc, char** argv) {
   CLI::App app{"Turns scenes of motion into problems that spacetime-optimizer solves."};
   app.set_version_flag("--version", "spacetime-symbolic " SPACETIME_VERSION);
-  app.require_subcommand(1);
-  std::string file, output;
-  bool statistics = false;
+  app.require_subcommand(0, 1);
+  Options options;
   CLI::App* command =
       app.add_subcommand("compile", "Compile a scene: the problem to standard output, mistakes to standard error");
-  command->add_option("FILE", file, "The scene, or - for standard input")->required();
-  command->add_option("-o,--output", output, "Write the problem to this file");
-  command->add_flag("--statistics", statistics, "Print sizes and times to standard error");
+  command->add_option("FILE", options.file, "The scene, or - for standard input")->required();
+  command->add_option("-o,--output", options.output, "Write the problem to this file");
+  command->add_flag("--json", options.json,
+                    "Write the mistakes as a JSON document (an empty list where there are none)");
+  command->add_flag("--statistics", options.statistics, "Print sizes and times to standard error");
+  app.allow_extras();
   try {
     app.parse(argc, argv);
-    return compile(file, output, statistics);
+    const std::vector<std::string> rest = app.remaining();
+    if (command->parsed() && rest.empty()) return compile(options);
+    if (rest.empty()) throw spacetime::InputError("say what to do: 'spacetime-symbolic compile FILE', or --help");
+    throw spacetime::InputError("there is no command or option '" + rest.front() +
+                                "': write 'spacetime-symbolic compile FILE', or --help");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
