@@ -4,6 +4,7 @@
 //   products   number * core; signs stand outside products, quotients, differences and odd functions
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "symbolic/graph.h"
@@ -24,7 +25,7 @@ double sine_of_pi(double k) {
   if (r == 0.5) return sign;
   if (r == 0.25) return sign * std::sqrt(0.5);
   if (std::fabs(6 * r - 1) < 1e-15) return sign * 0.5;
-  return sign * (r > 0.25 ? std::cos(M_PI * (0.5 - r)) : std::sin(M_PI * r));
+  return sign * (r > 0.25 ? std::cos(std::numbers::pi * (0.5 - r)) : std::sin(std::numbers::pi * r));
 }
 
 double cosine_of_pi(double k) { return sine_of_pi(std::fmod(k, 2) + 0.5); }
