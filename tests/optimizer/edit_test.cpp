@@ -1,0 +1,163 @@
+// Edits between iterations: a constant that is set gives the problem of the edited text, bit for bit.
+#include "optimizer/edit.h"
+
+#include <gtest/gtest.h>
+
+#include "common/diagnostic.h"
+#include "optimizer/run.h"
+#include "optimizer/transcription.h"
+#include "symbolic/compile.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+// Constants of every kind of use: in an expression, a mass, a length, gravity, a scope's ends and step, a time, an
+// instance, a weight of a term and of a constraint, a key, a start, another constant.
+const std::string scene = R"(time [0, 2]
+constant g = 9.81
+constant mass = 1.5
+constant length = 0.7
+constant release = 1.25
+constant twice = 2*release - 1
+constant step = 0.25
+constant w = 2
+constant soft = 30
+constant pose = 0.4
+constant target = 0.3
+trajectory bspline spans 8
+dof x = pose
+creature arm {
+  gravity (0, -g, 0)
+  link upper { revolute shoulder; a length; mass mass; rod }
+}
+constrain rest: (arm.q, arm.q') = 0 at 0
+constrain path: x = target*t over [0, release] every step
+constrain near: arm.upper.y = target at twice weight soft
+minimize effort: integral(dot(arm.force, arm.force), 0, release) weight w
+minimize calm: integral(x''^2 + arm.shoulder''^2)
+keyframe release: arm.shoulder = pose
+)";
+
+Problem compiled(const std::string& text) {
+  auto result = symbolic::compile(text);
+  for (const Diagnostic& diagnostic : result.diagnostics) ADD_FAILURE() << render(diagnostic, "scene", text);
+  return std::move(result.problem).value();
+}
+
+std::string with_constant(const std::string& name, const std::string& value) {
+  const auto from = scene.find("constant " + name + " = "), to = scene.find('\n', from);
+  return scene.substr(0, from) + "constant " + name + " = " + value + scene.substr(to);
+}
+
+struct Case {
+  const char* name;
+  const char* text;
+  double value;
+};
+
+class SetConstants : public testing::TestWithParam<Case> {};
+
+TEST_P(SetConstants, GiveTheProblemOfTheEditedText) {
+  const auto& [name, text, value] = GetParam();
+  Edited edited{compiled(scene), {}};
+  apply(edited, SetConstant{name, {value, {}, 0}});
+  const Problem set = in_effect(edited, 0), written = compiled(with_constant(name, text));
+  EXPECT_EQ(set, written);
+
+  // And what is tabulated from it, to the bit.
+  const Transcription a = transcribe(set), b = transcribe(written);
+  EXPECT_EQ(a.constants, b.constants);
+  ASSERT_EQ(a.batches.size(), b.batches.size());
+  for (std::size_t k = 0; k < a.batches.size(); ++k) {
+    EXPECT_EQ(a.batches[k].times, b.batches[k].times);
+    EXPECT_EQ(a.batches[k].weights, b.batches[k].weights);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SetConstants,
+                         testing::Values(Case{"g", "1.62", 1.62}, Case{"mass", "2.25", 2.25},
+                                         Case{"length", "0.9", 0.9}, Case{"release", "1.5", 1.5},
+                                         Case{"step", "0.125", 0.125}, Case{"w", "5", 5}, Case{"soft", "1e3", 1e3},
+                                         Case{"pose", "-0.2", -0.2}, Case{"target", "0.1", 0.1}),
+                         [](const auto& param) { return param.param.name; });
+
+TEST(SetConstants, FollowEachOtherUnlessSetThemselves) {
+  Edited edited{compiled(scene), {}};
+  apply(edited, SetConstant{"release", {1.1, {}, 0}});
+  EXPECT_EQ(evaluate_constants(edited.problem).at("twice"), 2 * 1.1 - 1);
+  apply(edited, SetConstant{"twice", {1.7, {}, 0}});
+  apply(edited, SetConstant{"release", {1.4, {}, 0}});
+  EXPECT_EQ(evaluate_constants(edited.problem).at("twice"), 1.7);
+}
+
+TEST(SetConstants, RefuseWhatIsFrozenOrUnknownOrSpoilsTheProblem) {
+  Edited edited{compiled(scene), {}};
+  edited.problem.constants[0].frozen = Place{7, 3};
+  const auto message = [&](const SetConstant& set) {
+    try {
+      apply(edited, set);
+      (void)transcribe(in_effect(edited, 0));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message({"g", {1, {}, 0}}).find("line 7"), std::string::npos);
+  EXPECT_NE(message({"nothing", {1, {}, 0}}).find("nothing"), std::string::npos);
+  EXPECT_NE(message({"release", {7, {}, 0}}).find("outside"), std::string::npos);
+}
+
+TEST(Edits, ChangeWhatTheyName) {
+  Edited edited{compiled(scene), {}};
+  apply(edited, Disable{"path"});
+  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 2U);
+  apply(edited, Enable{"path"});
+  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 3U);
+  apply(edited, Delete{"calm"});
+  EXPECT_EQ(in_effect(edited, 0).objective.size(), 1U);
+  EXPECT_THROW(apply(edited, Enable{"calm"}), InputError);
+  apply(edited, SetWeight{"near", std::nullopt});
+  EXPECT_FALSE(edited.problem.constraints[2].weight);
+  apply(edited, SetWeight{"effort", Quantity{7, {}, 0}});
+  EXPECT_EQ(edited.problem.objective[0].weight.number, 7);
+  EXPECT_THROW(apply(edited, SetWeight{"effort", std::nullopt}), InputError);
+  apply(edited, Bound{"x", {-1, {}, 0}, {1, {}, 0}});
+  EXPECT_EQ(edited.problem.dofs[0].upper->number, 1);
+  EXPECT_THROW(apply(edited, Bound{"y", {-1, {}, 0}, {1, {}, 0}}), InputError);
+  Scope scope;
+  scope.kind = Scope::Kind::times;
+  scope.times = {{0.5, {}, 0}};
+  apply(edited, Rescope{"path", scope});
+  EXPECT_EQ(edited.problem.constraints[1].scope, scope);
+}
+
+// The run goes on from where it stands: the basket moves, and few iterations bring the throw there.
+TEST(Edits, AMovedTargetIsReachedFromTheConvergedMotion) {
+  Problem problem = compiled(R"(time [0, 1]
+constant goal = 1
+trajectory bspline spans 16
+dof x
+constrain start: (x, x') = 0 at 0
+constrain end: x = goal at 1
+minimize integral(x''^2 + exp(x))
+)");
+  problem.actions = {{Solve{}, {1, 1}}, {SetConstant{"goal", {1.2, {}, 0}}, {2, 1}}, {Solve{}, {3, 1}}};
+  const Motion motion = run(problem, {});
+  EXPECT_EQ(motion.status, Status::converged) << motion.message;
+  EXPECT_NEAR(motion.dofs[0].coefficients.back(), 1.2, 1e-8);
+  EXPECT_EQ(motion.constants.back().second, 1.2);
+}
+
+TEST(Edits, ARefusedActionKeepsTheMotionReached) {
+  Problem problem =
+      compiled("time [0, 1]\ntrajectory bspline spans 4\ndof x\nconstrain x = 1 at 1\nminimize integral(x''^2)\n");
+  problem.actions = {{Solve{}, {6, 1}}, {Shake{}, {7, 1}}};
+  const Motion motion = run(problem, {});
+  EXPECT_EQ(motion.status, Status::stopped);
+  EXPECT_NE(motion.message.find("line 7"), std::string::npos) << motion.message;
+  EXPECT_NE(motion.message.find("shake"), std::string::npos) << motion.message;
+  EXPECT_NEAR(motion.dofs[0].coefficients.back(), 1, 1e-8);
+}
+
+}  // namespace
+}  // namespace spacetime::optimizer
