@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <queue>
-#include <ranges>
 #include <tuple>
 
 namespace spacetime::symbolic {
@@ -124,20 +123,20 @@ void Elimination::add_beside(std::uint32_t u, std::uint32_t v, Weight weight) {
 
 // How many weights eliminating v would make that are not there yet.
 std::int64_t Elimination::fill(std::uint32_t v) {
+  compact(v);
   const auto& vertex = vertices_[v];
-  const auto is_here = [&](const Link& link) { return !vertices_[link.vertex].gone; };
   std::int64_t count = 0;
-  for (const auto& w : vertex.above | std::views::filter(is_here)) {
+  for (const auto& w : vertex.above) {
     open_below(w.vertex);
-    for (const auto& u : vertex.below | std::views::filter(is_here)) count += place_[u.vertex] == 0 ? 1 : 0;
+    for (const auto& u : vertex.below) count += place_[u.vertex] == 0 ? 1 : 0;
     close();
   }
   const bool curved = !vertex.curvature.is_zero();
-  for (const auto& u : vertex.below | std::views::filter(is_here)) {
+  for (const auto& u : vertex.below) {
     open_beside(u.vertex, vertex);
     place_[u.vertex] = vertices_[u.vertex].curvature.is_zero() ? 0 : 1;
-    for (const auto& x : vertex.interacts | std::views::filter(is_here)) count += place_[x.vertex] == 0 ? 1 : 0;
-    for (const auto& x : vertex.below | std::views::filter(is_here)) {
+    for (const auto& x : vertex.interacts) count += place_[x.vertex] == 0 ? 1 : 0;
+    for (const auto& x : vertex.below) {
       if (curved && x.vertex <= u.vertex && place_[x.vertex] == 0) ++count;
     }
     place_[u.vertex] = 0;
@@ -157,16 +156,18 @@ std::int64_t Elimination::cost(std::uint32_t v) {
          (vertex.curvature.is_zero() ? 0 : curved_waits * below * below) + (vertex.linear ? linear_waits : 0);
 }
 
-void Elimination::compact(std::vector<Link>& links) const {
-  std::erase_if(links, [&](const Link& link) { return vertices_[link.vertex].gone; });
+// Forgets the neighbours that are gone.
+void Elimination::compact(std::uint32_t v) {
+  auto& vertex = vertices_[v];
+  for (auto* links : {&vertex.above, &vertex.below, &vertex.interacts}) {
+    std::erase_if(*links, [&](const Link& link) { return vertices_[link.vertex].gone; });
+  }
 }
 
 void Elimination::remove(std::uint32_t v) {
   auto& vertex = vertices_[v];
   vertex.gone = true;
-  compact(vertex.above);
-  compact(vertex.below);
-  compact(vertex.interacts);
+  compact(v);
   for (const auto& w : vertex.above) {
     open_below(w.vertex);
     for (const auto& u : vertex.below) {

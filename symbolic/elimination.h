@@ -63,7 +63,7 @@ class Elimination {
   std::int64_t fill(std::uint32_t v);
   std::int64_t cost(std::uint32_t v);
   void remove(std::uint32_t v);
-  void compact(std::vector<Link>& links) const;
+  void compact(std::uint32_t v);
   // Opens a vertex's row: notes where the weights of its neighbours are, for add_below and add_beside.
   void open_below(std::uint32_t above);
   // ... for additions to the vertices that v interacts with and those below it.

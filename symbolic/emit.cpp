@@ -152,10 +152,11 @@ Program emit(Graph& graph, std::span<const Expr> values, Derivatives derivatives
     if (program.numbers.empty() || program.numbers.back() != *number) program.numbers.push_back(*number);
     index[key(leaf)] = program.value_count() - 1;
   }
-  for (const auto& [value, operation, phase] : operations) {
+  for (const auto& planned : operations) {
+    const auto& operation = planned.operation;
     const int arity = info(operation.op).arity;
     const auto operand = [&](int k) { return k < arity ? index[key(operation.operand[k])] : 0; };
-    index[key(value)] = program.value_count();
+    index[key(planned.value)] = program.value_count();
     program.op.push_back(operation.op);
     program.a.push_back(operand(0));
     program.b.push_back(operand(1));
