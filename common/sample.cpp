@@ -17,6 +17,11 @@ struct Rows {
   double operator()(int output, std::size_t sample) const { return data[output * samples + sample]; }
 };
 
+double named(const std::vector<std::pair<std::string, double>>& list, const std::string& name) {
+  const auto found = std::ranges::find_if(list, [&](const auto& entry) { return entry.first == name; });
+  return found == list.end() ? 0 : found->second;
+}
+
 Rows run(const Program& program, const Motion& motion, std::span<const double> functionals,
          std::span<const double> times) {
   std::vector<std::vector<double>> inputs;
@@ -35,15 +40,15 @@ Rows run(const Program& program, const Motion& motion, std::span<const double> f
         values.assign(times.begin(), times.end());
         break;
       case InputKind::constant:
-        for (const auto& [name, constant] : motion.constants) {
-          if (name == input.name) values[0] = constant;
-        }
+        values[0] = named(motion.constants, input.name);
+        break;
+      case InputKind::parameter:
+        values[0] = named(motion.parameters, input.name);
         break;
       case InputKind::functional:
         values[0] = functionals[input.index];
         break;
       case InputKind::signal:
-      case InputKind::parameter:
       case InputKind::multiplier:
         break;
     }

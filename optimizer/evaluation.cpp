@@ -86,8 +86,12 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
           }
         }
         break;
+      case InputKind::parameter: {
+        const auto found = std::ranges::find(t.problem->parameters, input.name, &Parameter::name);
+        *to = x[t.first_parameter() + (found - t.problem->parameters.begin())];
+        break;
+      }
       case InputKind::signal:
-      case InputKind::parameter:
         *to = 0;
         break;  // no problem that is read has any
     }
