@@ -177,10 +177,12 @@ void Newton::lower_barrier(NewtonState& state, double tolerance) const {
     if (kkt_.is_equation(k)) violation = std::max(violation, std::abs(c[k]));
   }
   for (const int k : limits_.rows()) violation = std::max(violation, std::abs(c[k] + state.barrier.slack[k]));
-  for (double mu = state.barrier.mu / unit; mu > last_mu * tolerance; mu = state.barrier.mu / unit) {
+  const double least = last_mu * tolerance * unit;
+  while (state.barrier.mu > least) {
+    const double mu = state.barrier.mu / unit;
     const double gap = limits_.gap(state.x, state.barrier, state.barrier.mu) / (unit * limits_.count());
     if (std::max({state.measures.stationarity, violation, gap}) > barrier_error * mu) return;
-    state.barrier.mu = unit * std::max(last_mu * tolerance, std::min(mu_factor * mu, std::pow(mu, mu_power)));
+    state.barrier.mu = std::max(least, unit * std::min(mu_factor * mu, std::pow(mu, mu_power)));
     state.filter.clear();
   }
 }
