@@ -64,7 +64,6 @@ Compilation Compiler::compile(std::string_view text) {
     out.diagnostics.push_back({{1, 1, 1}, "the scene is larger than 16 MiB: split it", {}});
     return out;
   }
-  programs_.begin_text();
   const std::size_t derived = programs_.derived();
   const Scene scene = parse(text, out.diagnostics);
   const double parsing = milliseconds_since(start);
@@ -82,7 +81,9 @@ Compilation Compiler::compile(std::string_view text) {
   milliseconds.parse = parsing;
   milliseconds.total = milliseconds_since(start);
   milliseconds.build = milliseconds.total - milliseconds.parse - milliseconds.differentiate - milliseconds.emit;
-  if (out.diagnostics.empty()) out.problem = std::move(model.problem);
+  if (!out.diagnostics.empty()) return out;
+  programs_.end_text();
+  out.problem = std::move(model.problem);
   return out;
 }
 

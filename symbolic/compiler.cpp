@@ -79,9 +79,9 @@ const Programs::Emitted& Programs::of(Graph& graph, std::span<const Expr> values
   return *known;
 }
 
-void Programs::begin_text() {
-  ++text_;
+void Programs::end_text() {
   std::erase_if(programs_, [&](const auto& entry) { return entry.second->used < text_ - 2; });
+  ++text_;
 }
 
 }  // namespace spacetime::symbolic

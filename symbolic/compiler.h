@@ -15,8 +15,8 @@
 
 namespace spacetime::symbolic {
 
-// Programs by the expressions they compute and the derivatives they have.  Those that the last two texts did not use
-// are forgotten, so that it does not grow with a session.
+// Programs by the expressions they compute and the derivatives they have.  Those that the last three texts without
+// mistakes did not use are forgotten, so that it does not grow with a session.
 class Programs {
  public:
   struct Emitted {
@@ -31,7 +31,7 @@ class Programs {
   // graph where it is not known yet, adding the milliseconds spent on derivatives.
   const Emitted& of(Graph& graph, std::span<const Expr> values, Derivatives derivatives, double& differentiating);
 
-  void begin_text();                                // forgets what is old
+  void end_text();                                  // after one without mistakes: forgets what is old
   std::size_t derived() const { return derived_; }  // how many have been emitted since the beginning
 
  private:

@@ -45,11 +45,12 @@ TEST(Compiler, EachResultIsThatOfTheTextAlone) {
   }
 }
 
-TEST(Compiler, AMistakeInBetweenForgetsNothing) {
+TEST(Compiler, MistakesInBetweenForgetNothing) {
   const std::string text = twelve_links();
   Compiler compiler;
   compiler.compile(text);
-  EXPECT_FALSE(compiler.compile(replaced(text, "minimize", "minimise")).problem.has_value());
+  for (int i = 0; i < 5; ++i)
+    EXPECT_FALSE(compiler.compile(replaced(text, "minimize", "minimise")).problem.has_value());
   EXPECT_EQ(compiler.compile(text).statistics.derived, 0U);
 }
 
