@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "common/diagnostic.h"
@@ -80,7 +81,8 @@ Show parse_show(const Problem& problem, const std::string& text) {
 std::string summary(const Problem& problem, const Motion& motion, const std::vector<Show>& shows) {
   std::string text = fmt::format("\n{}: {}\n", name_of(motion.status), motion.message);
   text += fmt::format("iterations {}\n", motion.iterations);
-  text += fmt::format("objective  {:.10g}", motion.objective);
+  text +=
+      std::isnan(motion.objective) ? "objective  not a number" : fmt::format("objective  {:.10g}", motion.objective);
   if (motion.terms.size() > 1) {
     text += "  =";
     for (std::size_t k = 0; k < motion.terms.size(); ++k) {
