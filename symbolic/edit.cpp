@@ -1,5 +1,4 @@
 // Actions that change the problem between iterations, or move the motion by hand.
-#include <algorithm>
 #include <cmath>
 
 #include "symbolic/action.h"
@@ -50,21 +49,20 @@ bool is_frozen(Model& model, const Name& name) {
   return true;
 }
 
-// From here on the constant is worth this, and what follows from it follows.
+// From here on the constant is worth this, and what follows from it follows.  A constant's input is younger than what
+// it follows from, so one pass in the order of declaration finds each when its facts are not known yet.
 void change(Model& model, const Name& name, double value) {
   model.set_constants.insert(name.text);
+  model.work += 8.0 * static_cast<double>(model.graph.size());
+  model.facts.forget();
   model.facts.change_constant(name.text, value);
-  std::set<std::string> changed{name.text};
   for (const auto& [constant, e] : model.constants) {
     if (model.set_constants.contains(constant)) continue;
-    const auto uses = constants_in(model, e);
-    if (std::none_of(uses.begin(), uses.end(), [&](const std::string& use) { return changed.contains(use); })) continue;
     const double follows = *model.facts.known(e);
     if (!std::isfinite(follows))
       return report(model, name.span,
                     "with this value of " + quoted(name.text) + ", " + quoted(constant) +
                         ", which follows from it, has no finite value");
-    changed.insert(constant);
     model.facts.change_constant(constant, follows);
   }
 }

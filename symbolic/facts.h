@@ -17,11 +17,10 @@ class Facts {
 
   // Before the constant's input is made; a name declared twice keeps its first value.
   void set_constant(const std::string& name, double value) { constants_.try_emplace(name, value); }
-  // From here on it is worth something else: everything known is found anew.
-  void change_constant(const std::string& name, double value) {
-    constants_[name] = value;
-    facts_.clear();
-  }
+  // Before constants change their values: everything known is found anew.  Values that follow from one another are
+  // given in the order of their declaration.
+  void forget() { facts_.clear(); }
+  void change_constant(const std::string& name, double value) { constants_[name] = value; }
 
   // Depends on a degree of freedom or on time itself (what stands inside a functional does not count).
   bool timed(Expr e) { return (of(e).uses & (motion | clock)) != 0; }

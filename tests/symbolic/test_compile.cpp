@@ -603,11 +603,13 @@ TEST(Compile, ReplacementsDoNotCount) {
 }
 
 TEST(Compile, SetConstantsFollowInLaterStatements) {
-  const Problem problem = problem_of(head + R"(constant a = 1
+  const Problem problem = problem_of(head + R"(constant unused = 7
+constant a = 1
 constant b = 2*a
+constant c = b - unused + 3
 set a = 3
 iterate a
-iterate b
+iterate c + 4
 set b = 5
 set a = 4
 iterate b
