@@ -131,8 +131,13 @@ SPACETIME_CLONES void add_block(const HessianTerm* terms, int count, const Basis
   }
 }
 
+// Samples whose rows do not count are left out, not multiplied by zero: they may be no numbers.  All rows of a sample
+// share its condition.
 void add_hessian(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
-                 BorderedMatrix& hessian) {
+                 BorderedMatrix& hessian, std::span<const char> active = {}) {
+  const auto sample_counts = [&](int s) {
+    return batch.summed() || counts(active, batch.first_row + s * batch.outputs());
+  };
   const std::size_t base = batch.program->values.size() + batch.program->jacobian.size();
   const double* scale = batch.summed() ? batch.weights.data() : nullptr;
   for (const HessianBlock& pattern : batch.hessian) {
@@ -148,7 +153,17 @@ void add_hessian(const Transcription& t, const Layout& layout, const Batch& batc
     for (std::size_t k = 0; k + 1 < batch.chunks.size(); ++k) {
       const int from = batch.chunks[k];
       std::array<double, 16> block{};
-      add_block(terms.data(), count, basis_a.data(), basis_b.data(), scale, from, batch.chunks[k + 1], block.data());
+      const int to = batch.chunks[k + 1];
+      const auto add = [&](int first, int last) {
+        add_block(terms.data(), count, basis_a.data(), basis_b.data(), scale, first, last, block.data());
+      };
+      if (batch.summed() || active.empty()) {
+        add(from, to);
+      } else {
+        for (int s = from; s < to; ++s) {
+          if (sample_counts(s)) add(s, s + 1);
+        }
+      }
       const int* row = &layout.of_unknown[t.first[a.dof] + basis_a[from].first];
       const int* column = &layout.of_unknown[t.first[b.dof] + basis_b[from].first];
       for (int i = 0; i < 4; ++i) {
@@ -163,6 +178,7 @@ void add_hessian(const Transcription& t, const Layout& layout, const Batch& batc
   for (const BorderHessian& pattern : batch.border_hessian) {
     const int z = layout.of_unknown[t.first_functional() + pattern.unknown];
     for (int s = 0; s < batch.samples(); ++s) {
+      if (!sample_counts(s)) continue;
       const double h = out(base + pattern.entry, s) * (scale ? scale[s] : 1.0);
       if (pattern.other >= 0) {
         hessian.add(z, layout.of_unknown[t.first_functional() + pattern.other], h);
@@ -285,10 +301,12 @@ void linearise(const Transcription& t, const Layout& layout, std::span<const dou
 }
 
 void add_row_curvature(const Transcription& t, const Layout& layout, std::span<const double> x, const Values& values,
-                       std::span<const double> multipliers, Workspace& workspace, Linearisation& result) {
+                       std::span<const double> multipliers, Workspace& workspace, Linearisation& result,
+                       std::span<const char> active) {
   for (const Batch& batch : t.batches) {
     if (!needs_multipliers(batch) || batch.program->hessian.empty()) continue;
-    add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &values, multipliers, workspace), result.hessian);
+    add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &values, multipliers, workspace), result.hessian,
+                active);
   }
 }
 

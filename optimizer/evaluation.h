@@ -53,7 +53,7 @@ void linearise(const Transcription& transcription, const Layout& layout, std::sp
 // rows are not read: they are w r).
 void add_row_curvature(const Transcription& transcription, const Layout& layout, std::span<const double> x,
                        const Values& values, std::span<const double> multipliers, Workspace& workspace,
-                       Linearisation& result);
+                       Linearisation& result, std::span<const char> active = {});
 
 // Sets the unknowns of functionals to the functionals' values, in order.
 void settle_functionals(const Transcription& transcription, std::vector<double>& x, Workspace& workspace);

@@ -1,5 +1,7 @@
 #include "optimizer/layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,6 +26,9 @@ void for_each_coefficient(const Transcription& t, const Batch& batch, int sample
     }
   }
 }
+
+// Entries of the band. Five copies of it are kept, so this is two gigabytes; a step already takes minutes.
+constexpr double max_band = 5e7;
 
 struct Item {
   double key;  // time, s
@@ -92,6 +97,12 @@ Layout arrange(const Transcription& t) {
       // Coefficients couple only where the program has second derivatives; a residual that is linear has none.
       if (!batch.hessian.empty() && high >= 0) layout.width = std::max(layout.width, high - low);
     }
+  }
+  if (static_cast<double>(layout.n) * (layout.width + 1) > max_band) {
+    throw InputError(
+        fmt::format("the matrix of a step would have {} rows with {} entries each: too many instances stand "
+                    "within a few knot spans. Use larger steps between instances, or fewer degrees of freedom",
+                    layout.n, layout.width + 1));
   }
   return layout;
 }

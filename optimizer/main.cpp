@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -89,6 +91,11 @@ int main(int argc, char** argv) {
       "Example:\n  spacetime-symbolic compile examples/throw.scene | spacetime-optimizer solve > throw.motion.json");
 
   Arguments arguments;
+  const auto positive = [](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return *end == '\0' && std::isfinite(value) && value > 0 ? "" : "expected a positive number, found '" + text + "'";
+  };
   CLI::App* command = app.add_subcommand(
       "solve",
       "Runs the problem's actions, or solves where it has none.\n"
@@ -102,12 +109,14 @@ int main(int argc, char** argv) {
   command
       ->add_option("--samples", arguments.samples,
                    "Frames per second: also writes plotted expressions and body poses at that rate")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--tolerance", arguments.tolerance, "In place of the actions' own")->check(CLI::PositiveNumber);
+      ->check(positive);
+  command->add_option("--tolerance", arguments.tolerance, "In place of the actions' own")->check(positive);
   command->add_option("--iterations", arguments.iterations, "At most so many a solve, in place of the actions' own")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--show", arguments.show,
-                      "NAME@TIME: tell a plotted expression at a time (seconds, or a constant's name) in the summary");
+  command
+      ->add_option("--show", arguments.show,
+                   "NAME@TIME: tell a plotted expression at a time (seconds, or a constant's name) in the summary")
+      ->allow_extra_args(false);
   command->add_flag("--record", arguments.record, "Also write the record of all iterations");
   command->add_flag("-q,--quiet", arguments.quiet, "No table of iterations and no summary on standard error");
 

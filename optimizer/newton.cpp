@@ -115,7 +115,7 @@ void Newton::judge(NewtonState& state) {
   state.measures.gap = limits_.gap(state.x, state.barrier, 0) / std::max(1.0, std::abs(state.values.objective));
 
   const Stopwatch watch(state.seconds.evaluate);
-  add_row_curvature(t_, layout_, state.x, state.values, state.multipliers, workspace_, linear);
+  add_row_curvature(t_, layout_, state.x, state.values, state.multipliers, workspace_, linear, state.active);
   state.condition = StepResult::not_finite;
   if (!std::ranges::all_of(linear.hessian.band, [](double h) { return std::isfinite(h); })) return;
   if (!linear.hessian.border.allFinite()) return;

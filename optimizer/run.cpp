@@ -55,6 +55,7 @@ class Runner {
         end(fmt::format("Stopped before line {}: {}.", placed.place.line, error.what()));
       }
     }
+    if (!ended_) declare();  // what is declared after the last action is judged
     if (!judged_) perform(Iterate{0}, "iterate");
     return motion();
   }
@@ -130,7 +131,12 @@ class Runner {
     x.resize(t.unknowns(), 0.0);
     for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
       const Parameter& parameter = problem.parameters[k];
-      x[t.first_parameter() + k] = evaluate(problem, t.constants, parameter.start, "the start of " + parameter.name);
+      double& p = x[t.first_parameter() + k];
+      p = evaluate(problem, t.constants, parameter.start, "the start of " + parameter.name);
+      if (!options_.start) continue;
+      for (const auto& [name, value] : options_.start->parameters) {
+        if (name == parameter.name) p = value;
+      }
     }
     return x;
   }

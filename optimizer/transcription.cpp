@@ -155,6 +155,10 @@ class Transcriber {
     out_.first.push_back(unknowns);
     out_.first.push_back(unknowns + static_cast<int>(problem_.functionals.size()));
     out_.first.push_back(out_.first.back() + static_cast<int>(problem_.parameters.size()));
+    if (out_.unknowns() == 0) {
+      throw InputError(
+          "there is nothing to find: the problem has no degree of freedom and no parameter. Declare a `dof`");
+    }
     add_bounds();
     for (const auto& [hash, program] : problem_.programs) out_.evaluators.emplace(hash, Evaluator(program));
     add_functionals();

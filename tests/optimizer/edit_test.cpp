@@ -148,6 +148,19 @@ minimize integral(x''^2 + exp(x))
   EXPECT_EQ(motion.constants.back().second, 1.2);
 }
 
+TEST(Edits, WhatIsDeclaredAfterTheLastActionIsJudged) {
+  const Problem problem = compiled(
+      "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain x = 1 at 1\n"
+      "minimize integral(x''^2)\nsolve\nconstrain late: x = 5 at 0.5\n");
+  const Motion motion = run(problem, {});
+  EXPECT_EQ(motion.status, Status::stopped) << motion.message;
+  ASSERT_EQ(motion.violations.size(), 2U);
+  EXPECT_EQ(motion.violations[1].name, "late");
+  EXPECT_GT(motion.violation, 1);
+}
+
+TEST(Edits, NothingToFindIsRefused) { EXPECT_THROW(run(compiled("time [0, 1]\n"), {}), InputError); }
+
 TEST(Edits, ARefusedActionKeepsTheMotionReached) {
   Problem problem =
       compiled("time [0, 1]\ntrajectory bspline spans 4\ndof x\nconstrain x = 1 at 1\nminimize integral(x''^2)\n");

@@ -110,6 +110,19 @@ minimize integral((m*x'' + k*x)^2)
   EXPECT_NEAR(motion.parameters[0].second, 0.5 * std::numbers::pi * std::numbers::pi, 1e-5);
 }
 
+TEST(Limits, ARowThatDoesNotCountMayBeNoNumber) {
+  const Motion motion = run_scene(R"(time [0, 1]
+trajectory bspline spans 16
+dof x
+constrain (x, x') = 0 at 0
+constrain (x, x') = (1, 0) at 1
+constrain sqrt(x - 0.2) = 0.9 at 0.3 when x > 0.9
+minimize integral(x''^2)
+)");
+  EXPECT_EQ(motion.status, Status::converged) << motion.message;
+  EXPECT_NEAR(motion.objective, 12, 1e-6);
+}
+
 TEST(Limits, BoundsThatLeaveNoRoomAreRefused) {
   Problem problem = problem_of("time [0, 1]\ntrajectory bspline spans 4\ndof x in [0, 1]\nminimize integral(x^2)\n");
   problem.dofs[0].upper->number = 0;
