@@ -1,0 +1,244 @@
+#include "optimizer/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "common/diagnostic.h"
+#include "common/sample.h"
+#include "optimizer/sketch.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+// Without a limit of its own a solve ends after so many iterations: ten times what the hardest examples take.
+constexpr int default_iterations = 1000;
+
+[[noreturn]] void not_built(std::string_view what) { throw InputError(fmt::format("{} is not built yet", what)); }
+
+// Where a problem starts: its keyframes and declared values, or a motion as far as it goes.
+std::vector<double> start_of(const Problem& problem, const Transcription& t, const Motion* from) {
+  auto x = from ? sketch_from(problem, t.constants, *from) : sketch(problem, t.constants);
+  x.resize(t.unknowns(), 0.0);
+  for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
+    const Parameter& parameter = problem.parameters[k];
+    double& p = x[t.first_parameter() + k];
+    p = evaluate(problem, t.constants, parameter.start, "the start of " + parameter.name);
+    if (!from) continue;
+    for (const auto& [name, value] : from->parameters) {
+      if (name == parameter.name) p = value;
+    }
+  }
+  return x;
+}
+
+}  // namespace
+
+bool is_edit(const Action& action) {
+  return !std::holds_alternative<Solve>(action) && !std::holds_alternative<Iterate>(action);
+}
+
+Session::Session(Problem problem, std::optional<Motion> start)
+    : edited_{std::move(problem), {}},
+      start_(std::move(start)),
+      now_(std::make_unique<Numerics>(in_effect(edited_, declared_))) {
+  state_ = now_->newton.start(start_of(now_->problem, now_->t, start_ ? &*start_ : nullptr));
+}
+
+void Session::declare(int action) {
+  const auto begins = [&](const auto& statement) { return statement.since > declared_ && statement.since <= action; };
+  const bool more = std::ranges::any_of(edited_.problem.constraints, begins) ||
+                    std::ranges::any_of(edited_.problem.objective, begins);
+  declared_ = std::max(declared_, action);
+  if (!more) return;
+  now_ = std::make_unique<Numerics>(in_effect(edited_, declared_));
+  restart(state_.x);
+}
+
+void Session::perform(const Action& action, const Watch& watch) {
+  std::visit([&](const auto& which) { act(which, watch); }, action);
+}
+
+void Session::act(const Solve& solve, const Watch& watch) {
+  if (solve.method == Solve::Method::sqp92) not_built("the method 'sqp92'");
+  if (solve.method == Solve::Method::bfgs) not_built("the method 'bfgs'");
+  if (solve.starts > 1) not_built("'starts'");
+  iterate(solve.iterations.value_or(default_iterations), solve.tolerance, watch);
+}
+
+void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
+
+void Session::act(const Reset&, const Watch&) {
+  restart(start_of(now_->problem, now_->t, start_ ? &*start_ : nullptr));
+}
+
+void Session::act(const Control& control, const Watch&) {
+  const Transcription& t = now_->t;
+  const auto dof = std::ranges::find(t.problem->dofs, control.dof, &Dof::name) - t.problem->dofs.begin();
+  const int size = t.problem->dofs[dof].basis.size();
+  if (control.index >= size) {
+    throw InputError(fmt::format("'{}' has {} coefficients, numbered from 0", control.dof, size));
+  }
+  auto x = state_.x;
+  x[t.first[dof] + control.index] = evaluate(*t.problem, t.constants, control.value, "control " + control.dof);
+  restart(std::move(x));
+}
+
+template <class Edit>
+requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
+void Session::act(const Edit& edit, const Watch&) {
+  Edited next = edited_;
+  apply(next, edit);
+  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_));  // refused here, nothing is lost
+  edited_ = std::move(next);
+  now_ = std::move(numerics);
+  restart(state_.x);
+}
+
+template <class Other>
+void Session::act(const Other& other, const Watch&) {
+  not_built(fmt::format("the action '{}'", name_of(Action(other))));
+}
+
+void Session::update(Problem problem) {
+  Edited next{std::move(problem), {}};
+  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_));
+  const Motion reached = motion();
+  auto x = start_of(numerics->problem, numerics->t, &reached);
+  edited_ = std::move(next);
+  now_ = std::move(numerics);
+  restart(std::move(x));
+}
+
+void Session::set_motion(const Motion& motion) {
+  auto x = start_of(now_->problem, now_->t, &motion);
+  state_.iterations = motion.iterations;
+  restart(std::move(x));
+}
+
+// Goes on from x with the problem as it stands.
+void Session::restart(std::vector<double> x) {
+  const int iterations = state_.iterations;
+  const Seconds seconds = state_.seconds;
+  state_ = now_->newton.start(std::move(x));
+  state_.iterations = iterations;
+  state_.seconds.evaluate += seconds.evaluate;
+  state_.seconds.factor += seconds.factor;
+  judged_ = false;
+}
+
+void Session::iterate(int limit, double tolerance, const Watch& watch) {
+  judged_ = true;
+  for (int k = 0;; ++k) {
+    const bool last = k == limit;
+    if (!last && watch.go_on && !watch.go_on()) {
+      return stop("Interrupted after " + count() + ". " + standing());
+    }
+    judged_ = true;  // what edits have changed meanwhile is judged by what follows
+    if (last && !reached(tolerance)) {
+      outcome_ = {Status::stopped, "Stopped after " + count() + ", as many as were allowed. " + standing()};
+      return;
+    }
+    const StepResult result = now_->newton.step(state_, tolerance);
+    if (result != StepResult::stepped) {
+      outcome_ = outcome_of(result, now_->t, state_, tolerance);
+      return;
+    }
+    if (watch.progress) watch.progress(record());
+  }
+}
+
+void Session::stop(std::string message) {
+  outcome_ = {Status::stopped, std::move(message)};
+  judged_ = true;
+}
+
+bool Session::reached(double tolerance) const {
+  return state_.measures.within(tolerance) && state_.condition == StepResult::stepped;
+}
+
+std::string Session::count() const {
+  return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s");
+}
+
+std::string Session::standing() const {
+  return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",
+                     state_.measures.stationarity, worst_of(violations(now_->t, state_.x, state_.values)));
+}
+
+double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
+IterationRecord Session::record() const {
+  return {state_.iterations,
+          state_.values.objective,
+          state_.measures.violation,
+          state_.measures.stationarity,
+          state_.step,
+          state_.shift_used,
+          elapsed()};
+}
+
+std::vector<Trajectory> Session::trajectories() const {
+  const Transcription& t = now_->t;
+  std::vector<Trajectory> result;
+  for (int dof = 0; dof < t.dofs(); ++dof) {
+    result.push_back({now_->problem.dofs[dof].name,
+                      now_->problem.dofs[dof].basis,
+                      {state_.x.begin() + t.first[dof], state_.x.begin() + t.first[dof + 1]}});
+  }
+  return result;
+}
+
+// The unknowns with functionals at their true values, so that each relation is measured in its own units.
+std::vector<double> Session::settled() const {
+  Workspace workspace;
+  auto x = state_.x;
+  settle_functionals(now_->t, x, workspace);
+  return x;
+}
+
+Motion Session::motion(double tolerance) {
+  if (!judged_) iterate(0, tolerance, {});
+  const Transcription& t = now_->t;
+  const Problem& problem = now_->problem;
+  const auto x = settled();
+
+  Motion motion;
+  motion.start = problem.start;
+  motion.end = problem.end;
+  motion.status = outcome_.status;
+  motion.message = outcome_.message;
+  if (const int pivoted = now_->newton.pivoted_solves(); pivoted > 0) {
+    motion.message += fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted);
+  }
+  motion.iterations = state_.iterations;
+  Workspace workspace;
+  measure(t, x, evaluate(t, x, workspace, state_.active), motion);
+  motion.dofs = trajectories();
+  for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
+    motion.parameters.emplace_back(problem.parameters[k].name, x[t.first_parameter() + k]);
+  }
+  for (const Constant& constant : problem.constants) {
+    motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
+  }
+  motion.seconds = state_.seconds;
+  motion.seconds.total = elapsed();
+  return motion;
+}
+
+Samples Session::samples(std::span<const double> times) const {
+  const Transcription& t = now_->t;
+  const auto x = settled();
+  Motion motion;  // what samples are taken of
+  motion.dofs = trajectories();
+  for (std::size_t k = 0; k < now_->problem.parameters.size(); ++k) {
+    motion.parameters.emplace_back(now_->problem.parameters[k].name, x[t.first_parameter() + k]);
+  }
+  for (const Constant& constant : now_->problem.constants) {
+    motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
+  }
+  return sample(now_->problem, motion, std::span(x).subspan(t.first_functional()), times);
+}
+
+}  // namespace spacetime::optimizer

@@ -1,0 +1,112 @@
+// A problem that is worked on: its trajectories from one action to the next.  `run` makes one for a problem's own
+// actions, a daemon one for each of its peers.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/motion.h"
+#include "common/problem.h"
+#include "optimizer/edit.h"
+#include "optimizer/newton.h"
+#include "optimizer/outcome.h"
+
+namespace spacetime::optimizer {
+
+// Who looks on while an action iterates.
+struct Watch {
+  std::function<void(const IterationRecord&)> progress;  // after each iteration
+  // Asked before each iteration; false ends the action, and the motion reached is kept.  It may perform edits on the
+  // session (is_edit), which then take effect with the iteration that follows.
+  std::function<bool()> go_on;
+};
+
+// Whether an action only changes the problem or the motion, so that it can be performed between two iterations.
+bool is_edit(const Action& action);
+
+class Session {
+ public:
+  // Starts from the keyframes, or from `start`, to which `reset` then returns.  Throws InputError where the problem
+  // makes no sense with its constants' values.  Of statements declared behind actions none counts yet.
+  explicit Session(Problem problem, std::optional<Motion> start = {});
+
+  // Statements that take effect before action number `action` of the problem's list do so.
+  void declare(int action);
+
+  // Throws InputError for what cannot be done; all is then as it was before.
+  void perform(const Action& action, const Watch& watch = {});
+
+  // Another problem takes the place of this one; the motion goes on as far as names agree.  Throws InputError; all is
+  // then as it was before.
+  void update(Problem problem);
+
+  // The motion as it stands, with what the last action came to.  One edited since is judged first, by the tolerance.
+  Motion motion(double tolerance = Solve{}.tolerance);
+  // Goes on from this motion, as far as names agree, and from its number of iterations: from here on the bits are
+  // those of any other session with this problem and this motion.
+  void set_motion(const Motion& motion);
+
+  // Every plotted expression and body pose, at times (s) within the problem's span.
+  Samples samples(std::span<const double> times) const;
+
+  // The present point.
+  IterationRecord record() const;
+  std::vector<Trajectory> trajectories() const;
+  int iterations() const { return state_.iterations; }
+
+  // The problem as edited.
+  const Problem& problem() const { return edited_.problem; }
+
+  // Says why nothing more is done.
+  void stop(std::string message);
+  const Outcome& outcome() const { return outcome_; }
+
+ private:
+  // A problem with everything that is made from it.  The parts refer to one another, so it stays where it is.
+  struct Numerics {
+    Problem problem;
+    Transcription t;
+    Layout layout;
+    Newton newton;
+
+    explicit Numerics(Problem p)
+        : problem(std::move(p)), t(transcribe(problem)), layout(arrange(t)), newton(t, layout) {}
+    Numerics(const Numerics&) = delete;
+    Numerics& operator=(const Numerics&) = delete;
+  };
+  using Clock = std::chrono::steady_clock;
+
+  void act(const Solve& solve, const Watch& watch);
+  void act(const Iterate& iterate, const Watch& watch);
+  void act(const Reset& reset, const Watch& watch);
+  void act(const Control& control, const Watch& watch);
+  template <class Edit>
+  requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
+  void act(const Edit& edit, const Watch& watch);
+  template <class Other>
+  void act(const Other& other, const Watch& watch);
+
+  void iterate(int limit, double tolerance, const Watch& watch);
+  void restart(std::vector<double> x);
+  bool reached(double tolerance) const;
+  std::string count() const;
+  std::string standing() const;
+  std::vector<double> settled() const;
+  double elapsed() const;
+
+  Clock::time_point begun_ = Clock::now();
+  Edited edited_;
+  std::optional<Motion> start_;
+  int declared_ = 0;  // actions of the problem's list before which everything is declared
+  std::unique_ptr<Numerics> now_;
+  NewtonState state_;
+  Outcome outcome_;
+  bool judged_ = false;  // the outcome speaks of the present point
+};
+
+}  // namespace spacetime::optimizer
