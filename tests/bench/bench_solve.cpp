@@ -4,25 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "common/diagnostic.h"
 #include "optimizer/run.h"
 #include "symbolic/compile.h"
+#include "tests/bench/throws.h"
 
 using namespace spacetime;
 
 namespace {
-
-std::string file_text(const std::string& path) {
-  std::ifstream in(std::string(SPACETIME_SOURCE_DIR "/") + path, std::ios::binary);
-  if (!in) throw InputError("cannot read " + path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string with_spans(std::string text, int spans) {
   const std::string before = "bspline spans ";
@@ -91,12 +82,11 @@ int main() {
 
   std::printf("\n%-22s %6s %12s %10s %9s %9s %9s %9s\n", "solving, ms/iteration", "iter.", "objective", "status",
               "median", "fastest", "evaluate", "factor");
-  const auto starts = nlohmann::json::parse(file_text("tests/reference/solve_coefs.json"));
-  const Problem problem = symbolic::compile(regularised).problem.value();
-  for (const std::string start : {"S0", "S1", "S2", "S3"}) {
+  const Throw throws = throw_named("P94R");
+  for (int k = 0; k < 4; ++k) {
     optimizer::RunOptions options;
-    options.start = motion_of(problem, starts["P94_start_" + start].get<std::vector<double>>());
-    solving("P94R from " + start, problem, options, 51);
+    options.start = motion_of(throws.problem, throws.starts[k].coefficients);
+    solving("P94R from " + throws.starts[k].name, throws.problem, options, 51);
   }
   solving("throw", symbolic::compile(file_text("examples/throw.scene")).problem.value(), {}, 51);
 
