@@ -100,11 +100,15 @@ class Lexer {
   }
 
   void comment() {
+    const std::size_t start = i_;
     while (i_ < text_.size() && at(0) != '\n' && !(at(0) == '\r' && at(1) == '\n')) {
       const std::size_t size = checked_size();
       if (size == 0) return;
       i_ += size, ++column_;
     }
+    std::string_view text = text_.substr(start, i_ - start);
+    text = text.substr(0, text.find_last_not_of(" \t") + 1);
+    out_.comments.push_back({text, line_, out_.tokens.size()});
   }
 
   // The size of the character here, or 0 after saying that it is none.

@@ -47,16 +47,23 @@ struct Token {
   bool line_start = false;  // the first token on its line
 };
 
+struct Comment {
+  std::string_view text;   // of the scene, from its '#' on, without the spaces at its end
+  int line = 0;            // as a span's
+  std::size_t before = 0;  // the token that follows it
+};
+
 // Whether an expression must go on after such a token: binary operators, `=`, relations, the words and, or, not.
 bool is_operator(const Token& token);
 
-// The tokens of `text`, closed by an `end` token.  Comments and spaces are gone; line ends stand as tokens, except
+// The tokens of `text`, closed by an `end` token, and its comments.  Spaces are gone; line ends stand as tokens, except
 // after an operator, a comma or a colon and where nothing but comments stood on the line.  A byte-order mark and CRLF
 // are tolerated.  What is no text (invalid UTF-8, control characters) ends the list at once with one diagnostic and
 // `is_text` false; other characters that mean nothing become `bad` tokens, with one diagnostic a line.
 // The tokens point into `text`.
 struct Lexed {
   std::vector<Token> tokens;
+  std::vector<Comment> comments;
   bool is_text = true;
 };
 Lexed lex(std::string_view text, std::vector<Diagnostic>& diagnostics);

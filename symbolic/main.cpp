@@ -14,6 +14,7 @@
 #include "protocol/problem_json.h"
 #include "symbolic/colour.h"
 #include "symbolic/compile.h"
+#include "symbolic/format.h"
 
 namespace {
 
@@ -43,22 +44,42 @@ void print(const std::vector<Diagnostic>& diagnostics, const std::string& file, 
                            : spacetime::render(diagnostic, file, text));
 }
 
+std::string shown(const std::string& file) { return file == "-" ? "<standard input>" : file; }
+
 struct Options {
-  std::string file, output = "-";
+  std::string file = "-", output = "-";
   bool json = false, statistics = false;
+  bool in_place = false, check = false;
 };
 
 int compile(const Options& options) {
   const std::string text = spacetime::read_text(options.file);
-  const std::string shown = options.file == "-" ? "<standard input>" : options.file;
   const auto result = spacetime::symbolic::compile(text);
   if (options.json)
-    std::cerr << spacetime::write_diagnostics(result.diagnostics, shown);
+    std::cerr << spacetime::write_diagnostics(result.diagnostics, shown(options.file));
   else
-    print(result.diagnostics, shown, text);
+    print(result.diagnostics, shown(options.file), text);
   if (options.statistics) print(result.statistics);
   if (!result.problem) return 1;
   spacetime::write_text(options.output, spacetime::write(*result.problem));
+  return 0;
+}
+
+int format(const Options& options) {
+  if (options.in_place && options.file == "-")
+    throw spacetime::InputError("'format --in-place' needs a file: standard input is formatted to standard output");
+  const std::string text = spacetime::read_text(options.file);
+  const auto diagnostics = spacetime::symbolic::compile(text).diagnostics;
+  print(diagnostics, shown(options.file), text);
+  if (!diagnostics.empty()) return 1;
+  const std::string formatted = *spacetime::symbolic::format(text).text;
+  if (options.check) {
+    if (formatted == text) return 0;
+    std::cerr << shown(options.file) << ": is not formatted: 'spacetime-symbolic format --in-place' does it\n";
+    return 1;
+  }
+  if (options.in_place && formatted == text) return 0;
+  spacetime::write_text(options.in_place ? options.file : options.output, formatted);
   return 0;
 }
 
@@ -76,11 +97,20 @@ int main(int argc, char** argv) {
   command->add_flag("--json", options.json,
                     "Write the mistakes as a JSON document (an empty list where there are none)");
   command->add_flag("--statistics", options.statistics, "Print sizes and times to standard error");
+  CLI::App* formatting = app.add_subcommand(
+      "format", "Write a scene in its canonical layout; one with mistakes is refused and nothing is written");
+  formatting->add_option("FILE", options.file, "The scene, or - for standard input (the default)");
+  auto* output = formatting->add_option("-o,--output", options.output, "Write it to this file");
+  auto* in_place = formatting->add_flag("-i,--in-place", options.in_place, "Write it in place of the scene");
+  auto* check = formatting->add_flag("--check", options.check, "Write nothing: exit with 1 where it would change");
+  in_place->excludes(output)->excludes(check);
+  check->excludes(output);
   app.allow_extras();
   try {
     app.parse(argc, argv);
     const std::vector<std::string> rest = app.remaining();
     if (command->parsed() && rest.empty()) return compile(options);
+    if (formatting->parsed() && rest.empty()) return format(options);
     if (rest.empty()) throw spacetime::InputError("say what to do: 'spacetime-symbolic compile FILE', or --help");
     throw spacetime::InputError("there is no command or option '" + rest.front() +
                                 "': write 'spacetime-symbolic compile FILE', or --help");

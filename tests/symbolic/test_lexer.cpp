@@ -41,6 +41,18 @@ TEST(Lexer, SplitsNamesNumbersAndOperators) {
   EXPECT_EQ(words("x_1 Y2 _z"), "x_1 Y2 _z | ");
 }
 
+TEST(Lexer, KeepsCommentsWithWhatFollowsThem) {
+  std::vector<Diagnostic> diagnostics;
+  const Lexed lexed = lex("#\xC3\xA4 \ndof x # b\t\r\n# c\n+ # d", diagnostics);
+  ASSERT_EQ(lexed.comments.size(), 4U);
+  const std::vector<Comment> expected{{"#\xC3\xA4", 1, 0}, {"# b", 2, 2}, {"# c", 3, 3}, {"# d", 4, 4}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(lexed.comments[i].text, expected[i].text);
+    EXPECT_EQ(lexed.comments[i].line, expected[i].line);
+    EXPECT_EQ(lexed.comments[i].before, expected[i].before);
+  }
+}
+
 TEST(Lexer, ReadsNumbersAsCppDoes) {
   for (const auto& [text, value] :
        std::vector<std::pair<std::string, double>>{{"2", 2},

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "protocol/problem_json.h"
-#include "tests/symbolic/compiled.h"
+#include "tests/symbolic/scene_texts.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -249,14 +249,8 @@ creature c {
 
 // The manual's blocks, one after another, are a scene.
 TEST(Scenes, TheManualCompiles) {
-  const std::string manual = file_text("symbolic/LANGUAGE.md"), fence = "```\n";
   std::string scene;
-  for (std::size_t at = manual.find(fence); at != std::string::npos; at = manual.find(fence, at)) {
-    const std::size_t begin = at + fence.size(), end = manual.find(fence, begin);
-    ASSERT_NE(end, std::string::npos);
-    scene += manual.substr(begin, end - begin);
-    at = end + fence.size();
-  }
+  for (const std::string& block : manual_blocks()) scene += block;
   const Problem problem = problem_of(scene);
   EXPECT_EQ(problem.constraints.size(), 7U);  // one of them a replacement
   EXPECT_EQ(problem.objective.size(), 3U);    // likewise
