@@ -70,8 +70,7 @@ void Session::act(const Solve& solve, const Watch& watch) {
 void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
 
 void Session::act(const Reset&, const Watch&) {
-  // Keyframes that were declared meanwhile count from here on.
-  restart(start_of(in_effect(edited_, declared_), now_->t, start_ ? &*start_ : nullptr));
+  restart(start_of(now_->problem, now_->t, start_ ? &*start_ : nullptr));
 }
 
 void Session::act(const Control& control, const Watch&) {

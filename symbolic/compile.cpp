@@ -20,7 +20,20 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-void finish(std::vector<Diagnostic>& diagnostics) {
+}  // namespace
+
+Scene parse_scene(std::string_view text, std::vector<Diagnostic>& diagnostics) {
+  if (text.size() > largest_scene) {
+    diagnostics.push_back({{1, 1, 1}, "the scene is larger than 16 MiB: split it", {}});
+    return {};
+  }
+  Scene scene = parse(text, diagnostics);
+  if (scene.statements.empty() && diagnostics.empty())
+    diagnostics.push_back({{1, 1, 1}, "the scene is empty: begin it with a line such as 'time [0, 2]'", {}});
+  return scene;
+}
+
+void put_in_order(std::vector<Diagnostic>& diagnostics) {
   std::stable_sort(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.span.line, a.span.column) < std::pair(b.span.line, b.span.column);
   });
@@ -31,14 +44,12 @@ void finish(std::vector<Diagnostic>& diagnostics) {
       {diagnostics.back().span, std::to_string(left) + " more mistakes follow and are left out"});
 }
 
-}  // namespace
-
 void report(Model& model, const Span& span, std::string message, std::vector<Diagnostic::Note> notes) {
   model.diagnostics.push_back({span, std::move(message), std::move(notes)});
 }
 
 std::string add_program(Model& model, std::span<const Expr> values, Derivatives derivatives) {
-  if (!model.diagnostics.empty()) return {};
+  if (!model.emits || !model.diagnostics.empty()) return {};
   const auto start = Clock::now();
   double differentiating = 0;
   Graph own;
@@ -60,21 +71,13 @@ Compilation compile(std::string_view text) { return Compiler().compile(text); }
 Compilation Compiler::compile(std::string_view text) {
   Compilation out;
   const auto start = Clock::now();
-  if (text.size() > largest_scene) {
-    out.diagnostics.push_back({{1, 1, 1}, "the scene is larger than 16 MiB: split it", {}});
-    return out;
-  }
   const std::size_t derived = programs_.derived();
-  const Scene scene = parse(text, out.diagnostics);
+  const Scene scene = parse_scene(text, out.diagnostics);
   const double parsing = milliseconds_since(start);
-  if (scene.statements.empty()) {
-    if (out.diagnostics.empty())
-      out.diagnostics.push_back({{1, 1, 1}, "the scene is empty: begin it with a line such as 'time [0, 2]'", {}});
-    return out;
-  }
+  if (scene.statements.empty()) return out;
   Model model(scene, programs_, out.diagnostics);
   elaborate_scene(model);
-  finish(out.diagnostics);
+  put_in_order(out.diagnostics);
   out.statistics = model.statistics;
   out.statistics.derived = programs_.derived() - derived;
   auto& milliseconds = out.statistics.milliseconds;

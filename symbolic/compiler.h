@@ -12,6 +12,7 @@
 #include "symbolic/compile.h"
 #include "symbolic/emit.h"
 #include "symbolic/graph.h"
+#include "symbolic/scene.h"
 
 namespace spacetime::symbolic {
 
@@ -39,6 +40,11 @@ class Programs {
   int text_ = 0;
   std::size_t derived_ = 0;
 };
+
+// The tree of a scene; without statements where the text is too large, empty or no text, which is reported.
+Scene parse_scene(std::string_view text, std::vector<Diagnostic>& diagnostics);
+// Sorts them by place, and keeps as many as are read at once.
+void put_in_order(std::vector<Diagnostic>& diagnostics);
 
 // What `compile` does, for one text after another: each result is that of the text alone.
 class Compiler {

@@ -103,6 +103,7 @@ Constraint constraint_of(Model& model, const ConstrainDeclaration& declaration, 
   out.since = static_cast<int>(model.problem.actions.size());
   if (declaration.relation.kind != Relation::Kind::equal) out.relation = Constraint::Relation::at_most;
   auto values = residual(model, declaration.relation);
+  if (values) named.residuals = *values;
   std::optional<Scope> scope;
   std::optional<Expr> condition;
   if (declaration.scope) scope = elaborate_scope(model, *declaration.scope);
@@ -122,7 +123,16 @@ void elaborate_constraint(Model& model, const ConstrainDeclaration& declaration,
   named.span = declaration.name ? declaration.name->span : span;
   Constraint out = constraint_of(model, declaration, span, named);
   out.name = statement_name(model, declaration.name, "constraint", ++model.constraints, named);
+  note_stated(model, {out.name, true, out.relation, std::move(named.residuals)});
   model.problem.constraints.push_back(std::move(out));
+}
+
+void note_stated(Model& model, Stated stated) {
+  const auto before = std::ranges::find(model.stated, stated.name, &Stated::name);
+  if (before != model.stated.end())
+    *before = std::move(stated);
+  else
+    model.stated.push_back(std::move(stated));
 }
 
 }  // namespace spacetime::symbolic

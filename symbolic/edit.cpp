@@ -111,6 +111,7 @@ std::optional<Action> action_of(Model& model, const ReplaceAction& action) {
     Constraint by = constraint_of(model, *constraint, action.name.span, replaced);
     by.name = action.name.text;
     by.replacement = true;
+    note_stated(model, {by.name, true, by.relation, std::move(replaced.residuals)});
     out.with = static_cast<int>(model.problem.constraints.size());
     model.problem.constraints.push_back(std::move(by));
     if (named) *named = replaced;

@@ -69,16 +69,6 @@ void elaborate_dof(Model& model, const DofDeclaration& declaration) {
   declare(model, declaration.name, symbol);
 }
 
-void elaborate_let(Model& model, const LetDeclaration& declaration) {
-  Symbol symbol;
-  if (auto components = elaborate_numbers(model, declaration.value, "a 'let'")) {
-    symbol.kind = Symbol::Kind::let;
-    model.lets.emplace_back(declaration.name.text, *components);
-    symbol.value = {Value::Kind::numbers, std::move(*components)};
-  }
-  declare(model, declaration.name, symbol);
-}
-
 void damaged(Model& model, const Statement& statement, const Damaged& what) {
   // What it would have set counts as set, so that its slip is reported once.
   if (statement.word == "time" && !model.time) model.time = statement.span;
@@ -142,6 +132,16 @@ void note_frozen(Model& model) {
 }
 
 }  // namespace
+
+void elaborate_let(Model& model, const LetDeclaration& declaration) {
+  Symbol symbol;
+  if (auto components = elaborate_numbers(model, declaration.value, "a 'let'")) {
+    symbol.kind = Symbol::Kind::let;
+    model.lets.emplace_back(declaration.name.text, *components);
+    symbol.value = {Value::Kind::numbers, std::move(*components)};
+  }
+  declare(model, declaration.name, symbol);
+}
 
 void elaborate_scene(Model& model) {
   note_declarations(model);

@@ -59,6 +59,17 @@ std::vector<int> functionals_in(Model& model, std::span<const Expr> values) {
   return out;
 }
 
+std::vector<int> all_functionals_in(Model& model, std::span<const Expr> values) {
+  std::vector<int> out = functionals_in(model, values);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Expr integrand = model.functionals[static_cast<std::size_t>(out[i])].integrand;
+    for (const int inner : functionals_in(model, std::vector{integrand}))
+      if (std::ranges::find(out, inner) == out.end()) out.push_back(inner);
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
 std::optional<Expr> common_time(const Model& model, const std::vector<int>& functionals) {
   std::optional<Expr> time;
   for (const int index : functionals) {

@@ -18,6 +18,9 @@ Expr functional(Model& model, const FunctionalUse& use);
 // The functionals that stand in `values` (not those inside these), in the order they were written.
 std::vector<int> functionals_in(Model& model, std::span<const Expr> values);
 
+// Those, and the ones inside them.
+std::vector<int> all_functionals_in(Model& model, std::span<const Expr> values);
+
 // The time, where all of them are values at one and the same.
 std::optional<Expr> common_time(const Model& model, const std::vector<int>& functionals);
 

@@ -199,6 +199,12 @@ const Function* function_named(std::string_view name) {
   return nullptr;
 }
 
+const Function* function_of(Op op) {
+  for (const Function& function : table)
+    if (function.apply == one_operation && function.op == op) return &function;
+  return nullptr;
+}
+
 std::vector<std::string> function_names() {
   std::vector<std::string> out;
   for (const Function& function : table) out.emplace_back(function.name);

@@ -20,6 +20,8 @@ struct Function {
 // Null where there is none.
 const Function* function_named(std::string_view name);
 std::vector<std::string> function_names();
+// The function that is this one operation; null where none is.
+const Function* function_of(Op op);
 
 // Whether `value` is one number, reporting at `span` where it is not; quiet about lost ones.
 bool need_scalar(Model& model, const Value& value, const Span& span, std::string_view what);

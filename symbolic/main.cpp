@@ -1,24 +1,21 @@
 // spacetime-symbolic: scene text in, a problem or diagnostics out.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "common/files.h"
 #include "protocol/diagnostics_json.h"
 #include "protocol/problem_json.h"
-#include "symbolic/colour.h"
+#include "symbolic/command.h"
+#include "symbolic/command_print.h"
 #include "symbolic/compile.h"
 #include "symbolic/format.h"
 
 namespace {
 
-using spacetime::Diagnostic;
+using spacetime::symbolic::print, spacetime::symbolic::shown;
 
 void print(const spacetime::symbolic::Statistics& s) {
   const auto& ms = s.milliseconds;
@@ -28,23 +25,6 @@ void print(const spacetime::symbolic::Statistics& s) {
                s.tree_nodes, s.shared_nodes, s.operations, s.programs, ms.parse, ms.build, ms.differentiate, ms.emit,
                ms.total);
 }
-
-// For people who look at a terminal and have not asked for plain text (no-color.org).
-bool is_coloured() {
-  const char* plain = std::getenv("NO_COLOR");
-  return (!plain || *plain == '\0') && isatty(STDERR_FILENO) == 1;
-}
-
-void print(const std::vector<Diagnostic>& diagnostics, const std::string& file, std::string_view text) {
-  // Columns do not count a byte-order mark.
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const bool coloured = is_coloured();
-  for (const Diagnostic& diagnostic : diagnostics)
-    std::cerr << (coloured ? spacetime::symbolic::render_coloured(diagnostic, file, text)
-                           : spacetime::render(diagnostic, file, text));
-}
-
-std::string shown(const std::string& file) { return file == "-" ? "<standard input>" : file; }
 
 struct Options {
   std::string file = "-", output = "-";
@@ -105,12 +85,15 @@ int main(int argc, char** argv) {
   auto* check = formatting->add_flag("--check", options.check, "Write nothing: exit with 1 where it would change");
   in_place->excludes(output)->excludes(check);
   check->excludes(output);
+  const auto printing = spacetime::symbolic::add_print(app), counting = spacetime::symbolic::add_count(app);
   app.allow_extras();
   try {
     app.parse(argc, argv);
     const std::vector<std::string> rest = app.remaining();
     if (command->parsed() && rest.empty()) return compile(options);
     if (formatting->parsed() && rest.empty()) return format(options);
+    if (printing.app->parsed() && rest.empty()) return printing.run();
+    if (counting.app->parsed() && rest.empty()) return counting.run();
     if (rest.empty()) throw spacetime::InputError("say what to do: 'spacetime-symbolic compile FILE', or --help");
     throw spacetime::InputError("there is no command or option '" + rest.front() +
                                 "': write 'spacetime-symbolic compile FILE', or --help");

@@ -93,6 +93,15 @@ struct Named {
   bool own_times = false;  // its times stand inside at( ) and integral( )
   bool lost = false;
   std::optional<Span> deleted;
+  std::vector<Expr> residuals;  // of a constraint, as they are written
+};
+
+// What a constraint or an objective term says, as it is written: its residuals, or what is minimised.
+struct Stated {
+  std::string name;
+  bool is_constraint = true;
+  Constraint::Relation relation = Constraint::Relation::equal;
+  std::vector<Expr> values;
 };
 
 // Where degrees of freedom are keyed, by name and time.
@@ -121,6 +130,7 @@ struct Model {
   std::map<std::string, Named, std::less<>> statement_names;    // of constraints and objective terms
   std::vector<std::pair<std::string, std::vector<Expr>>> lets;  // in order, and what has been eliminated
   std::vector<Creature> creatures;
+  std::vector<Stated> stated;      // in order; what has been replaced as it is now
   int constraints = 0, terms = 0;  // declared so far, replacements left out
 
   std::vector<std::pair<std::string, Expr>> constants;  // what each follows from, in order
@@ -159,13 +169,15 @@ struct Model {
   std::optional<Span> first_action;
   bool refined = false;  // by an action: coefficients are as many as the motion says
 
+  bool emits = true;  // programs; false where only expressions are asked for
   Statistics statistics;
 };
 
 void report(Model& model, const Span& span, std::string message, std::vector<Diagnostic::Note> notes = {});
 inline Place place_of(const Span& span) { return {span.line, span.column}; }
 
-// The program of these values, kept in the problem; its key there.  Nothing is emitted once there are mistakes.
+// The program of these values, kept in the problem; its key there.  Nothing is emitted once there are mistakes, or for
+// a model that does not emit.
 std::string add_program(Model& model, std::span<const Expr> values, Derivatives derivatives);
 
 }  // namespace spacetime::symbolic

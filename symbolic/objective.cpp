@@ -101,6 +101,7 @@ void add_term(Model& model, const MinimizeDeclaration& declaration, Term term) {
     for (const Sum& sum : sums) add_piece(model, term, sum);
     if (!model.graph.is_number(rest, 0) || sums.empty()) add_rest(model, term, rest);
   }
+  if (e) note_stated(model, {term.name, false, {}, {*e}});
   model.problem.objective.push_back(std::move(term));
 }
 

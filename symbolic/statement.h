@@ -17,6 +17,9 @@ void add_bodies(Model& model);                                                  
 Constraint constraint_of(Model& model, const ConstrainDeclaration& declaration, const Span& span, Named& named);
 // Adds a term that has its name and place.
 void add_term(Model& model, const MinimizeDeclaration& declaration, Term term);
+// Notes what a constraint or an objective term says, in place of what another of this name said before.
+void note_stated(Model& model, Stated stated);
+void elaborate_let(Model& model, const LetDeclaration& declaration);  // elaborate.cpp
 // "name = value, ..." at a time, where that is known; `keyed` tells what has a key already.
 std::vector<Key> elaborate_keys(Model& model, const std::vector<Assignment>& assignments, std::optional<double> time,
                                 Keyed& keyed);
