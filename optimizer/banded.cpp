@@ -1,136 +1,134 @@
 #include "optimizer/banded.h"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
+#include <algorithm>
 
 #include "optimizer/clones.h"
 
 namespace spacetime::optimizer {
 namespace {
 
-// Factorises in place, column by column: after column j, l(i, j) = k(i, j) / d(j) and the trailing block has
-// k(i, k) -= l(i, j) d(j) l(k, j).  Returns the number of negative pivots, or -1 where one vanishes.
-SPACETIME_CLONES int factor_band(double* band, int n, int width) {
-  const std::ptrdiff_t step = width + 1;
-  int negative = 0;
-  for (int j = 0; j < n; ++j) {
-    double* column = band + j * step;
-    const double pivot = column[0];
-    if (!(std::abs(pivot) > 1e-300) || !std::isfinite(pivot)) return -1;
-    negative += pivot < 0;
-    const double inverse = 1 / pivot;
-    const int below = j + width < n ? width : n - 1 - j;
-    for (int k = 1; k <= below; ++k) {
-      const double l = column[k] * inverse;
-      if (l == 0) continue;
-      double* target = band + (j + k) * step;
-      const double* source = column + k;
-      const int length = below - k;
-      for (int i = 0; i <= length; ++i) target[i] -= l * source[i];
-    }
-    for (int k = 1; k <= below; ++k) column[k] *= inverse;
-  }
-  return negative;
-}
-
-SPACETIME_CLONES void forward(const double* band, int n, int width, double* x) {
+// y += M x for the band.
+SPACETIME_CLONES void multiply_band(const double* band, int n, int width, const double* x, double* y) {
   for (int j = 0; j < n; ++j) {
     const double* column = band + static_cast<std::ptrdiff_t>(j) * (width + 1);
     const int below = j + width < n ? width : n - 1 - j;
     const double value = x[j];
-    for (int k = 1; k <= below; ++k) x[j + k] -= column[k] * value;
-  }
-}
-
-void backward(const double* band, int n, int width, double* x) {
-  for (int j = n - 1; j >= 0; --j) {
-    const double* column = band + static_cast<std::ptrdiff_t>(j) * (width + 1);
-    const int below = j + width < n ? width : n - 1 - j;
-    double sum = x[j];
-    for (int k = 1; k <= below; ++k) sum -= column[k] * x[j + k];
-    x[j] = sum;
+    for (int k = 1; k <= below; ++k) y[j + k] += column[k] * value;
   }
 }
 
 }  // namespace
 
-BorderedMatrix::BorderedMatrix(int n_, int width_, int m_)
-    : n(n_), width(width_), m(m_), band(static_cast<std::size_t>(n_) * (width_ + 1)), border(m_, n_ + m_) {
+std::size_t Pattern::far_entries() const {
+  if (long_rows.empty()) return 0;
+  const auto& [row, from, offset] = long_rows.back();
+  return offset + static_cast<std::size_t>(row - width - from);
+}
+
+const Pattern::LongRow* Pattern::long_row(int row) const {
+  const auto found = std::ranges::lower_bound(long_rows, row, {}, &LongRow::row);
+  return found != long_rows.end() && found->row == row ? &*found : nullptr;
+}
+
+BorderedMatrix::BorderedMatrix(std::shared_ptr<const Pattern> p)
+    : pattern(std::move(p)),
+      n(pattern->n),
+      width(pattern->width),
+      m(pattern->m),
+      band(static_cast<std::size_t>(n) * (width + 1)),
+      far(pattern->far_entries()),
+      border(m, n + m),
+      sparse(pattern->column.size()),
+      diagonal(pattern->sparse_rows()) {
   border.setZero();
 }
 
 void BorderedMatrix::set_zero() {
-  std::fill(band.begin(), band.end(), 0.0);
+  for (auto* part : {&band, &far, &sparse, &diagonal}) std::fill(part->begin(), part->end(), 0.0);
   border.setZero();
 }
 
-void BorderedMatrix::add(int i, int j, double value) {
+BorderedMatrix& BorderedMatrix::operator+=(const BorderedMatrix& other) {
+  const auto add_all = [](std::vector<double>& to, const std::vector<double>& from) {
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += from[k];
+  };
+  add_all(band, other.band);
+  add_all(far, other.far);
+  add_all(sparse, other.sparse);
+  add_all(diagonal, other.diagonal);
+  border += other.border;
+  return *this;
+}
+
+double BorderedMatrix::on_diagonal(int k) const {
+  if (k < n) return band[static_cast<std::size_t>(k) * (width + 1)];
+  return k < n + m ? border(k - n, k) : diagonal[k - n - m];
+}
+
+double BorderedMatrix::at(int i, int j) const {
   if (i < j) std::swap(i, j);
+  if (i == j) return on_diagonal(i);
+  if (i < n && i - j <= width) return band[static_cast<std::size_t>(j) * (width + 1) + (i - j)];
   if (i < n) {
-    at(i, j) += value;
-    return;
+    const auto* row = pattern->long_row(i);
+    return row && j >= row->from ? far[row->offset + (j - row->from)] : 0;
   }
-  border(i - n, j) += value;
-  if (j >= n && i != j) border(j - n, i) += value;
+  if (i < n + m) return border(i - n, j);
+  for (int e = pattern->start[i - n - m]; e < pattern->start[i - n - m + 1]; ++e) {
+    if (pattern->column[e] == j) return sparse[e];
+  }
+  return 0;
+}
+
+void BorderedMatrix::add_beyond(int i, int j, double value) {
+  if (i < n) {
+    const auto* row = pattern->long_row(i);
+    far[row->offset + (j - row->from)] += value;
+  } else if (i < n + m) {
+    border(i - n, j) += value;
+    if (j >= n && i != j) border(j - n, i) += value;
+  } else if (i == j) {
+    diagonal[i - n - m] += value;
+  } else {
+    int e = pattern->start[i - n - m];
+    while (pattern->column[e] != j) ++e;
+    sparse[e] += value;
+  }
 }
 
 Eigen::VectorXd multiply(const BorderedMatrix& matrix, const Eigen::VectorXd& x) {
-  const int n = matrix.n, m = matrix.m, width = matrix.width;
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(n + m);
+  const Pattern& p = *matrix.pattern;
+  const int n = p.n, m = p.m, width = p.width;
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(matrix.size());
+  multiply_band(matrix.band.data(), n, width, x.data(), y.data());
   for (int j = 0; j < n; ++j) {
     const double* column = matrix.band.data() + static_cast<std::ptrdiff_t>(j) * (width + 1);
     const int below = j + width < n ? width : n - 1 - j;
     double sum = column[0] * x[j];
-    for (int k = 1; k <= below; ++k) {
-      sum += column[k] * x[j + k];
-      y[j + k] += column[k] * x[j];
-    }
+    for (int k = 1; k <= below; ++k) sum += column[k] * x[j + k];
     y[j] += sum;
   }
+  for (const auto& [row, from, offset] : p.long_rows) {
+    for (int j = from; j < row - width; ++j) {
+      const double a = matrix.far[offset + (j - from)];
+      y[row] += a * x[j];
+      y[j] += a * x[row];
+    }
+  }
   if (m > 0) {
-    y.head(n).noalias() += matrix.border.leftCols(n).transpose() * x.tail(m);
-    y.tail(m).noalias() += matrix.border * x;
+    y.head(n).noalias() += matrix.border.leftCols(n).transpose() * x.segment(n, m);
+    y.segment(n, m).noalias() += matrix.border * x.head(n + m);
+  }
+  for (int r = 0; r < p.sparse_rows(); ++r) {
+    const int position = n + m + r;
+    double sum = matrix.diagonal[r] * x[position];
+    for (int e = p.start[r]; e < p.start[r + 1]; ++e) {
+      sum += matrix.sparse[e] * x[p.column[e]];
+      y[p.column[e]] += matrix.sparse[e] * x[position];
+    }
+    y[position] = sum;
   }
   return y;
-}
-
-void Factorisation::solve_band(double* x) const {
-  forward(l_.band.data(), l_.n, l_.width, x);
-  for (int j = 0; j < l_.n; ++j) x[j] /= l_.band[static_cast<std::size_t>(j) * (l_.width + 1)];
-  backward(l_.band.data(), l_.n, l_.width, x);
-}
-
-bool Factorisation::compute(const BorderedMatrix& matrix) {
-  l_ = matrix;
-  negative_ = factor_band(l_.band.data(), l_.n, l_.width);
-  if (negative_ < 0) return false;
-  const int n = l_.n, m = l_.m;
-  if (m == 0) return true;
-
-  // Row k of B K^-1; then S = C - (B K^-1) B^T.
-  for (int k = 0; k < m; ++k) solve_band(&l_.border(k, 0));
-  Eigen::MatrixXd schur = matrix.border.rightCols(m) - l_.border.leftCols(n) * matrix.border.leftCols(n).transpose();
-  schur = (0.5 * (schur + schur.transpose())).eval();
-  if (!schur.allFinite()) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(schur);
-  schur_vectors_ = eigen.eigenvectors();
-  schur_values_ = eigen.eigenvalues();
-  if (!(schur_values_.cwiseAbs().minCoeff() > 1e-300)) return false;
-  negative_ += static_cast<int>((schur_values_.array() < 0).count());
-  return true;
-}
-
-Eigen::VectorXd Factorisation::solve(const Eigen::VectorXd& right) const {
-  const int n = l_.n, m = l_.m;
-  Eigen::VectorXd x = right;
-  if (m > 0) {
-    // S x2 = r2 - B K^-1 r1;  K x1 = r1 - B^T x2, with K^-1 B^T kept.
-    const Eigen::VectorXd reduced = right.tail(m) - l_.border.leftCols(n) * right.head(n);
-    x.tail(m) = schur_vectors_ * (schur_vectors_.transpose() * reduced).cwiseQuotient(schur_values_);
-  }
-  solve_band(x.data());
-  if (m > 0) x.head(n).noalias() -= l_.border.leftCols(n).transpose() * x.tail(m);
-  return x;
 }
 
 }  // namespace spacetime::optimizer

@@ -22,23 +22,24 @@ struct Outputs {
 };
 
 // What multiplies an output of a summed batch in the Lagrangian, for its program's multiplier inputs.
-double multiplier_of(const Target& target, std::span<const double> multipliers) {
+double multiplier_of(const Transcription& t, const Target& target, std::span<const double> multipliers) {
   switch (target.kind) {
     case Target::Kind::nowhere:
       break;
     case Target::Kind::objective:
       return target.factor;
     case Target::Kind::functional:
-      return -multipliers[target.index];  // the rows z - F come first, in order
+      return -multipliers[t.functional_row[target.index]];  // the row is z - F
   }
   return 0;
 }
 
-SPACETIME_CLONES void gather(const BasisValues* basis, const double* coefficients, int derivative, int samples,
+// `origin`: where in x coefficient 0 would stand; outside of it in a window.
+SPACETIME_CLONES void gather(const BasisValues* basis, const double* x, int origin, int derivative, int samples,
                              double* result) {
   for (int s = 0; s < samples; ++s) {
     const double* b = basis[s].b[derivative].data();
-    const double* c = coefficients + basis[s].first;
+    const double* c = x + (origin + basis[s].first);
     result[s] = (b[0] * c[0] + b[1] * c[1]) + (b[2] * c[2] + b[3] * c[3]);
   }
 }
@@ -75,7 +76,7 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
         if (depth != Depth::hessian) {
           *to = 0;
         } else if (batch.summed()) {
-          *to = multiplier_of(batch.targets[input.index], multipliers);
+          *to = multiplier_of(t, batch.targets[input.index], multipliers);
         } else {
           w.uniform[i] = 0;
           for (int s = 0; s < samples; ++s) {
@@ -100,7 +101,7 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
     for (int d = 0; d <= max_derivative; ++d) {
       if (slot.input[d] < 0) continue;
       w.uniform[slot.input[d]] = 0;
-      gather(batch.tables[slot.table].data(), x.data() + t.first[slot.dof], d, samples,
+      gather(batch.tables[slot.table].data(), x.data(), t.origin(slot.dof), d, samples,
              w.inputs.data() + slot.input[d] * stride);
     }
   }
@@ -164,36 +165,38 @@ void add_hessian(const Transcription& t, const Layout& layout, const Batch& batc
           if (sample_counts(s)) add(s, s + 1);
         }
       }
-      const int* row = &layout.of_unknown[t.first[a.dof] + basis_a[from].first];
-      const int* column = &layout.of_unknown[t.first[b.dof] + basis_b[from].first];
+      const int* row = &layout.of_unknown[t.origin(a.dof) + basis_a[from].first];
+      const int* column = &layout.of_unknown[t.origin(b.dof) + basis_b[from].first];
       for (int i = 0; i < 4; ++i) {
         const int last = pattern.a == pattern.b ? i : 3;  // a block on the diagonal: its lower triangle
         for (int j = 0; j <= last; ++j) {
-          const int high = std::max(row[i], column[j]), low = std::min(row[i], column[j]);
-          hessian.at(high, low) += block[4 * i + j];
+          if (row[i] >= 0 && column[j] >= 0) hessian.add(row[i], column[j], block[4 * i + j]);
         }
       }
     }
   }
   for (const BorderHessian& pattern : batch.border_hessian) {
     const int z = layout.of_unknown[t.first_functional() + pattern.unknown];
+    if (z < 0) continue;
     for (int s = 0; s < batch.samples(); ++s) {
       if (!sample_counts(s)) continue;
       const double h = out(base + pattern.entry, s) * (scale ? scale[s] : 1.0);
       if (pattern.other >= 0) {
-        hessian.add(z, layout.of_unknown[t.first_functional() + pattern.other], h);
+        const int other = layout.of_unknown[t.first_functional() + pattern.other];
+        if (other >= 0) hessian.add(z, other, h);
         continue;
       }
       const Slot& slot = batch.slots[pattern.slot];
       const BasisValues& basis = batch.basis(slot, s);
       for (int k = 0; k < 4; ++k) {
-        hessian.add(z, layout.of_unknown[t.first[slot.dof] + basis.first + k], h * basis.b[pattern.derivative][k]);
+        const int position = layout.of_unknown[t.origin(slot.dof) + basis.first + k];
+        if (position >= 0) hessian.add(z, position, h * basis.b[pattern.derivative][k]);
       }
     }
   }
 }
 
-// Calls visit(sample, output, position, derivative) for every entry of the batch's first derivatives.
+// Calls visit(sample, output, position, derivative) for every entry of the batch's first derivatives by what is free.
 template <typename Visit>
 void for_each_derivative(const Transcription& t, const Layout& layout, const Batch& batch, const Outputs& out,
                          Visit visit) {
@@ -208,14 +211,15 @@ void for_each_derivative(const Transcription& t, const Layout& layout, const Bat
         const double j = out(base + pattern.entry[d], s);
         for (int k = 0; k < 4; ++k) sum[k] += j * basis.b[d][k];
       }
-      const int* position = &layout.of_unknown[t.first[slot.dof] + basis.first];
+      const int* position = &layout.of_unknown[t.origin(slot.dof) + basis.first];
       for (int k = 0; k < 4; ++k) {
-        if (sum[k] != 0) visit(s, pattern.output, position[k], sum[k]);
+        if (sum[k] != 0 && position[k] >= 0) visit(s, pattern.output, position[k], sum[k]);
       }
     }
   }
   for (const BorderJacobian& pattern : batch.border_jacobian) {
     const int position = layout.of_unknown[t.first_functional() + pattern.unknown];
+    if (position < 0) continue;
     for (int s = 0; s < batch.samples(); ++s) visit(s, pattern.output, position, out(base + pattern.entry, s));
   }
 }
@@ -232,7 +236,7 @@ void add_first_derivatives(const Transcription& t, const Layout& layout, const B
     const Target& target = batch.targets[output];
     if (target.kind == Target::Kind::objective) result.gradient[position] += batch.weights[s] * target.factor * value;
     if (target.kind == Target::Kind::functional) {
-      result.jacobian.add(layout.of_row[target.index], position, -batch.weights[s] * value);
+      result.jacobian.add(layout.of_row[t.functional_row[target.index]], position, -batch.weights[s] * value);
     }
   });
 }
@@ -250,7 +254,10 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
   Values values;
   values.terms.assign(t.problem->objective.size(), 0.0);
   values.residual.assign(t.rows.size(), 0.0);
-  for (int k = 0; k < t.functionals(); ++k) values.residual[k] = x[t.first_functional() + k];  // z - F
+  for (int k = 0; k < t.functionals(); ++k) {
+    const int row = t.functional_row[k];
+    if (row >= 0) values.residual[row] = x[t.first_functional() + k] - t.elsewhere[k];  // z - F
+  }
   for (const Batch& batch : t.batches) {
     const Outputs out = run(t, batch, Depth::values, x, nullptr, {}, workspace);
     const int outputs = batch.outputs();
@@ -266,7 +273,7 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
       for (int s = 0; s < batch.samples(); ++s) sum += batch.weights[s] * out(o, s);
       const Target& target = batch.targets[o];
       if (target.kind == Target::Kind::objective) values.terms[target.index] += target.factor * sum;
-      if (target.kind == Target::Kind::functional) values.residual[target.index] -= sum;
+      if (target.kind == Target::Kind::functional) values.residual[t.functional_row[target.index]] -= sum;
     }
   }
   for (const double term : values.terms) values.objective += term;
@@ -280,8 +287,7 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
 }
 
 Linearisation start_linearisation(const Layout& layout) {
-  return {Eigen::VectorXd::Zero(layout.size()), BorderedMatrix(layout.n, layout.width, layout.border),
-          BorderedMatrix(layout.n, layout.width, layout.border)};
+  return {Eigen::VectorXd::Zero(layout.size()), BorderedMatrix(layout.pattern), BorderedMatrix(layout.pattern)};
 }
 
 void linearise(const Transcription& t, const Layout& layout, std::span<const double> x, Workspace& workspace,
@@ -290,7 +296,8 @@ void linearise(const Transcription& t, const Layout& layout, std::span<const dou
   result.jacobian.set_zero();
   result.hessian.set_zero();
   for (int k = 0; k < t.functionals(); ++k) {
-    result.jacobian.add(layout.of_row[k], layout.of_unknown[t.first_functional() + k], 1);
+    const int row = t.functional_row[k];
+    if (row >= 0) result.jacobian.add(layout.of_row[row], layout.of_unknown[t.first_functional() + k], 1);
   }
   for (const Batch& batch : t.batches) {
     const bool waits = needs_multipliers(batch);
@@ -325,8 +332,8 @@ std::vector<char> active_rows(const Transcription& t, std::span<const double> x,
 void settle_functionals(const Transcription& t, std::vector<double>& x, Workspace& workspace) {
   // Each may use those before it: the k-th pass settles at least the k-th.
   for (int k = 0; k < t.functionals(); ++k) {
-    const Values values = evaluate(t, x, workspace);
-    const double missing = values.residual[k];
+    if (t.functional_row[k] < 0) continue;
+    const double missing = evaluate(t, x, workspace).residual[t.functional_row[k]];
     if (std::isfinite(missing)) x[t.first_functional() + k] -= missing;
   }
 }

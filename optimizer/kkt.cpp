@@ -41,24 +41,14 @@ Kkt::Kkt(const Transcription& t, const Layout& layout)
 // For each hard row, the sum of A_ri^2 / diagonal_i.
 Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const {
   Eigen::VectorXd sizes = Eigen::VectorXd::Zero(jacobian.size());
-  const auto visit = [&](int i, int j, double a) {
+  for_each_entry(jacobian, [&](int i, int j, double a) {
+    if (a == 0 || i == j) return;
     if (is_row(i)) {
       sizes[i] += a * a / diagonal[j];
     } else {
       sizes[j] += a * a / diagonal[i];
     }
-  };
-  for (int j = 0; j < jacobian.n; ++j) {
-    const double* column = jacobian.band.data() + static_cast<std::ptrdiff_t>(j) * (jacobian.width + 1);
-    for (int k = 1; k <= jacobian.width && j + k < jacobian.n; ++k) {
-      if (column[k] != 0) visit(j + k, j, column[k]);
-    }
-  }
-  for (int i = 0; i < jacobian.m; ++i) {
-    for (int j = 0; j < jacobian.n + i; ++j) {
-      if (jacobian.border(i, j) != 0) visit(jacobian.n + i, j, jacobian.border(i, j));
-    }
-  }
+  });
   // Without any gradient there is nothing to compare with.
   const double largest = sizes.maxCoeff();
   return sizes.cwiseMax(largest > 0 ? row_floor * largest : 1.0);
@@ -67,13 +57,12 @@ Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::Vect
 // The matrix without shift and regularisation, and what regularisation is to be.
 void Kkt::assemble(const Linearisation& linear, const Eigen::VectorXd& diagonal) {
   exact_ = linear.hessian;
-  for (std::size_t k = 0; k < exact_.band.size(); ++k) exact_.band[k] += linear.jacobian.band[k];
-  exact_.border += linear.jacobian.border;
+  exact_ += linear.jacobian;
 
   Eigen::VectorXd curvature(exact_.size());
   double sum = 0;
   for (int k = 0; k < exact_.size(); ++k) {
-    curvature[k] = std::abs(k < exact_.n ? linear.hessian.at_diagonal(k) : linear.hessian.border(k - exact_.n, k));
+    curvature[k] = std::abs(linear.hessian.on_diagonal(k));
     sum += curvature[k];
   }
   const int unknowns = exact_.size() - rows_;
@@ -132,16 +121,11 @@ std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisatio
   // [ I  A^T ] [ y      ]     [ gradient ]
   // [ A  0   ] [ lambda ] = - [ 0        ],   soft rows and limits left out
   exact_ = linear.jacobian;
-  for (int j = 0; j < exact_.n; ++j) {
-    for (int i = j + 1; i <= j + exact_.width && i < exact_.n; ++i) {
-      if (role_[i] == Role::compliant || role_[j] == Role::compliant) exact_.at(i, j) = 0;
-    }
-    if (role_[j] == Role::compliant && exact_.m > 0) exact_.border.col(j).setZero();
-  }
-  for (int i = 0; i < exact_.m; ++i) {
-    if (role_[exact_.n + i] != Role::compliant) continue;
-    exact_.border.row(i).setZero();
-    exact_.border.col(exact_.n + i).setZero();
+  for_each_entry(exact_, [&](int i, int j, double& a) {
+    if (role_[i] == Role::compliant || role_[j] == Role::compliant) a = 0;
+  });
+  for (int i = 0; i < exact_.m; ++i) {  // the upper triangle of the border's block
+    for (int j = i + 1; j < exact_.m; ++j) exact_.border(i, exact_.n + j) = exact_.border(j, exact_.n + i);
   }
   vanishing_ = -row_regularisation * row_sizes(exact_, Eigen::VectorXd::Ones(exact_.size()));
   Eigen::VectorXd right = -gradient;
@@ -208,23 +192,12 @@ std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) const {
 // Last resort: a sparse LU with pivoting of the matrix as it was regularised.
 std::optional<Eigen::VectorXd> Kkt::solve_pivoted(const Eigen::VectorXd& right) const {
   std::vector<Eigen::Triplet<double>> entries;
-  const BorderedMatrix& matrix = regular_;
-  for (int j = 0; j < matrix.n; ++j) {
-    for (int i = j; i <= j + matrix.width && i < matrix.n; ++i) {
-      const double value = matrix.band[static_cast<std::size_t>(j) * (matrix.width + 1) + (i - j)];
-      if (value == 0) continue;
-      entries.emplace_back(i, j, value);
-      if (i != j) entries.emplace_back(j, i, value);
-    }
-  }
-  for (int i = 0; i < matrix.m; ++i) {
-    for (int j = 0; j < matrix.size(); ++j) {
-      if (matrix.border(i, j) == 0) continue;
-      entries.emplace_back(matrix.n + i, j, matrix.border(i, j));
-      if (j < matrix.n) entries.emplace_back(j, matrix.n + i, matrix.border(i, j));
-    }
-  }
-  Eigen::SparseMatrix<double> sparse(matrix.size(), matrix.size());
+  for_each_entry(regular_, [&](int i, int j, double value) {
+    if (value == 0) return;
+    entries.emplace_back(i, j, value);
+    if (i != j) entries.emplace_back(j, i, value);
+  });
+  Eigen::SparseMatrix<double> sparse(regular_.size(), regular_.size());
   sparse.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(sparse);
   if (lu.info() != Eigen::Success) return std::nullopt;

@@ -61,7 +61,7 @@ double Newton::filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) cons
 
 double Newton::largest_change(const Eigen::VectorXd& direction) const {
   double largest = 0;
-  for (const int position : layout_.of_unknown) largest = std::max(largest, std::abs(direction[position]));
+  for (const int u : layout_.free) largest = std::max(largest, std::abs(direction[layout_.of_unknown[u]]));
   return largest;
 }
 
@@ -107,7 +107,8 @@ void Newton::judge(NewtonState& state) {
   }
   pulled += multiply(linear.jacobian, of_equations);
   double largest = 0, of_objective = 1;
-  for (const int position : layout_.of_unknown) {
+  for (const int u : layout_.free) {
+    const int position = layout_.of_unknown[u];
     largest = std::max(largest, std::abs(pulled[position]));
     of_objective = std::max(of_objective, std::abs(state.gradient[position]));
   }
@@ -117,8 +118,9 @@ void Newton::judge(NewtonState& state) {
   const Stopwatch watch(state.seconds.evaluate);
   add_row_curvature(t_, layout_, state.x, state.values, state.multipliers, workspace_, linear, state.active);
   state.condition = StepResult::not_finite;
-  if (!std::ranges::all_of(linear.hessian.band, [](double h) { return std::isfinite(h); })) return;
-  if (!linear.hessian.border.allFinite()) return;
+  bool finite = true;
+  for_each_entry(linear.hessian, [&](int, int, double h) { finite &= std::isfinite(h); });
+  if (!finite) return;
   state.condition = StepResult::stepped;
 }
 

@@ -37,7 +37,7 @@ std::vector<Violation> violations(const Transcription& t, std::span<const double
       const double amount = std::max(t.lower[u] - x[u], x[u] - t.upper[u]);
       if (amount > bound.max) {
         bound.max = amount;
-        bound.time = times[u - t.first[k]];
+        bound.time = times[u - t.origin(k)];
       }
     }
     result.push_back(std::move(bound));

@@ -40,7 +40,7 @@ Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& change, 
   Trial trial;
   trial.x = state.x;
   trial.barrier = barrier;
-  for (int u = 0; u < t_.unknowns(); ++u) trial.x[u] += change[layout_.of_unknown[u]];
+  for (const int u : layout_.free) trial.x[u] += change[layout_.of_unknown[u]];
   trial.values = evaluate(t_, trial.x, workspace_, state.active);
   const Eigen::VectorXd c = residual_of(trial.values);
   limits_.widen(trial.barrier, c);
@@ -112,7 +112,7 @@ std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& 
       back = kkt_.solve(-missed);
     }
     if (!back) return std::nullopt;
-    for (const int position : layout_.of_unknown) change[position] += (*back)[position];
+    for (const int u : layout_.free) change[layout_.of_unknown[u]] += (*back)[layout_.of_unknown[u]];
     if (largest_change(change) > 2 * length * model.size) return std::nullopt;  // no correction any more
     Trial other = try_at(state, change, moved(state, model, length));
     if (verdict(state, model, other, length) != Verdict::rejected) return other;
@@ -171,7 +171,7 @@ StepResult Newton::search(NewtonState& state, const Model& model, double toleran
 
 void Newton::accept(NewtonState& state, Trial trial) {
   state.step = 0;
-  for (int u = 0; u < t_.unknowns(); ++u) state.step = std::max(state.step, std::abs(trial.x[u] - state.x[u]));
+  for (const int u : layout_.free) state.step = std::max(state.step, std::abs(trial.x[u] - state.x[u]));
   state.x = std::move(trial.x);
   state.values = std::move(trial.values);
   state.barrier = std::move(trial.barrier);

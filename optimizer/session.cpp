@@ -8,6 +8,7 @@
 #include "common/diagnostic.h"
 #include "common/sample.h"
 #include "optimizer/sketch.h"
+#include "optimizer/window.h"
 
 namespace spacetime::optimizer {
 namespace {
@@ -39,11 +40,19 @@ bool is_edit(const Action& action) {
   return !std::holds_alternative<Solve>(action) && !std::holds_alternative<Iterate>(action);
 }
 
+Session::Numerics::Numerics(Problem p, const Window& window)
+    : problem(std::move(p)),
+      whole(transcribe(problem)),
+      freedom(within(problem, whole.constants, window)),
+      part(freedom.whole ? std::nullopt : std::optional(transcribe(problem, freedom))),
+      layout(arrange(t())),
+      newton(t(), layout) {}
+
 Session::Session(Problem problem, std::optional<Motion> start)
     : edited_{std::move(problem), {}},
       start_(std::move(start)),
-      now_(std::make_unique<Numerics>(in_effect(edited_, declared_))) {
-  state_ = now_->newton.start(start_of(now_->problem, now_->t, start_ ? &*start_ : nullptr));
+      now_(std::make_unique<Numerics>(in_effect(edited_, declared_), window_)) {
+  restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
 }
 
 void Session::declare(int action) {
@@ -52,8 +61,9 @@ void Session::declare(int action) {
                     std::ranges::any_of(edited_.problem.objective, begins);
   declared_ = std::max(declared_, action);
   if (!more) return;
-  now_ = std::make_unique<Numerics>(in_effect(edited_, declared_));
-  restart(state_.x);
+  auto x = unknowns();
+  now_ = std::make_unique<Numerics>(in_effect(edited_, declared_), window_);
+  restart(std::move(x));
 }
 
 void Session::perform(const Action& action, const Watch& watch) {
@@ -70,17 +80,27 @@ void Session::act(const Solve& solve, const Watch& watch) {
 void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
 
 void Session::act(const Reset&, const Watch&) {
-  restart(start_of(now_->problem, now_->t, start_ ? &*start_ : nullptr));
+  restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
+}
+
+void Session::act(const Window& window, const Watch&) {
+  auto x = settled();
+  now_ = std::make_unique<Numerics>(now_->problem, window);
+  window_ = window;
+  restart(std::move(x));
 }
 
 void Session::act(const Control& control, const Watch&) {
-  const Transcription& t = now_->t;
+  const Transcription& t = now_->whole;
   const auto dof = std::ranges::find(t.problem->dofs, control.dof, &Dof::name) - t.problem->dofs.begin();
   const int size = t.problem->dofs[dof].basis.size();
   if (control.index >= size) {
     throw InputError(fmt::format("'{}' has {} coefficients, numbered from 0", control.dof, size));
   }
-  auto x = state_.x;
+  if (!now_->freedom.has(static_cast<int>(dof), control.index)) {
+    throw InputError(fmt::format("coefficient {} of '{}' is not free in the window", control.index, control.dof));
+  }
+  auto x = unknowns();
   x[t.first[dof] + control.index] = evaluate(*t.problem, t.constants, control.value, "control " + control.dof);
   restart(std::move(x));
 }
@@ -90,10 +110,11 @@ requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
 void Session::act(const Edit& edit, const Watch&) {
   Edited next = edited_;
   apply(next, edit);
-  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_));  // refused here, nothing is lost
+  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_), window_);  // refused here, nothing is lost
+  auto x = unknowns();
   edited_ = std::move(next);
   now_ = std::move(numerics);
-  restart(state_.x);
+  restart(std::move(x));
 }
 
 template <class Other>
@@ -103,16 +124,16 @@ void Session::act(const Other& other, const Watch&) {
 
 void Session::update(Problem problem) {
   Edited next{std::move(problem), {}};
-  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_));
+  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_), window_);
   const Motion reached = motion();
-  auto x = start_of(numerics->problem, numerics->t, &reached);
+  auto x = start_of(numerics->problem, numerics->whole, &reached);
   edited_ = std::move(next);
   now_ = std::move(numerics);
   restart(std::move(x));
 }
 
 void Session::set_motion(const Motion& motion) {
-  auto x = start_of(now_->problem, now_->t, &motion);
+  auto x = start_of(now_->problem, now_->whole, &motion);
   state_.iterations = motion.iterations;
   restart(std::move(x));
 }
@@ -121,7 +142,19 @@ void Session::set_motion(const Motion& motion) {
 void Session::restart(std::vector<double> x) {
   const int iterations = state_.iterations;
   const Seconds seconds = state_.seconds;
-  state_ = now_->newton.start(std::move(x));
+  objective_outside_ = 0;
+  x_ = std::move(x);
+  if (now_->part) {
+    Workspace workspace;
+    settle_functionals(now_->whole, x_, workspace);
+    settle_elsewhere(now_->whole, *now_->part, x_);
+    auto own = taken(now_->whole, *now_->part, x_);
+    objective_outside_ =
+        evaluate(now_->whole, x_, workspace).objective - evaluate(*now_->part, own, workspace).objective;
+    state_ = now_->newton.start(std::move(own));
+  } else {
+    state_ = now_->newton.start(x_);
+  }
   state_.iterations = iterations;
   state_.seconds.evaluate += seconds.evaluate;
   state_.seconds.factor += seconds.factor;
@@ -142,7 +175,8 @@ void Session::iterate(int limit, double tolerance, const Watch& watch) {
     }
     const StepResult result = now_->newton.step(state_, tolerance);
     if (result != StepResult::stepped) {
-      outcome_ = outcome_of(result, now_->t, state_, tolerance);
+      outcome_ = outcome_of(result, now_->t(), state_, tolerance);
+      outcome_.message += standing_elsewhere(tolerance);
       return;
     }
     if (watch.progress) watch.progress(record());
@@ -164,14 +198,25 @@ std::string Session::count() const {
 
 std::string Session::standing() const {
   return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",
-                     state_.measures.stationarity, worst_of(violations(now_->t, state_.x, state_.values)));
+                     state_.measures.stationarity, worst_of(violations(now_->t(), state_.x, state_.values)));
+}
+
+// What a window leaves to be said.
+std::string Session::standing_elsewhere(double tolerance) const {
+  if (!now_->part) return "";
+  const auto x = settled();
+  Workspace workspace;
+  const auto all =
+      violations(now_->whole, x, evaluate(now_->whole, x, workspace, active_rows(now_->whole, x, workspace)));
+  const bool holds = std::ranges::all_of(all, [&](const Violation& v) { return v.max <= tolerance; });
+  return " That is within the window" + (holds ? "." : "; over the whole time " + worst_of(all) + ".");
 }
 
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
 
 IterationRecord Session::record() const {
   return {state_.iterations,
-          state_.values.objective,
+          state_.values.objective + objective_outside_,
           state_.measures.violation,
           state_.measures.stationarity,
           state_.step,
@@ -180,27 +225,35 @@ IterationRecord Session::record() const {
 }
 
 std::vector<Trajectory> Session::trajectories() const {
-  const Transcription& t = now_->t;
+  const Transcription& t = now_->whole;
+  const auto x = unknowns();
   std::vector<Trajectory> result;
   for (int dof = 0; dof < t.dofs(); ++dof) {
     result.push_back({now_->problem.dofs[dof].name,
                       now_->problem.dofs[dof].basis,
-                      {state_.x.begin() + t.first[dof], state_.x.begin() + t.first[dof + 1]}});
+                      {x.begin() + t.first[dof], x.begin() + t.first[dof + 1]}});
   }
   return result;
+}
+
+std::vector<double> Session::unknowns() const {
+  if (!now_->part) return state_.x;
+  auto x = x_;
+  put_back(now_->whole, *now_->part, state_.x, x);
+  return x;
 }
 
 // The unknowns with functionals at their true values, so that each relation is measured in its own units.
 std::vector<double> Session::settled() const {
   Workspace workspace;
-  auto x = state_.x;
-  settle_functionals(now_->t, x, workspace);
+  auto x = unknowns();
+  settle_functionals(now_->whole, x, workspace);
   return x;
 }
 
 Motion Session::motion(double tolerance) {
   if (!judged_) iterate(0, tolerance, {});
-  const Transcription& t = now_->t;
+  const Transcription& t = now_->whole;
   const Problem& problem = now_->problem;
   const auto x = settled();
 
@@ -214,7 +267,8 @@ Motion Session::motion(double tolerance) {
   }
   motion.iterations = state_.iterations;
   Workspace workspace;
-  measure(t, x, evaluate(t, x, workspace, state_.active), motion);
+  const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
+  measure(t, x, evaluate(t, x, workspace, active), motion);
   motion.dofs = trajectories();
   for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
     motion.parameters.emplace_back(problem.parameters[k].name, x[t.first_parameter() + k]);
@@ -228,7 +282,7 @@ Motion Session::motion(double tolerance) {
 }
 
 Samples Session::samples(std::span<const double> times) const {
-  const Transcription& t = now_->t;
+  const Transcription& t = now_->whole;
   const auto x = settled();
   Motion motion;  // what samples are taken of
   motion.dofs = trajectories();

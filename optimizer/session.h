@@ -70,14 +70,17 @@ class Session {
   // A problem with everything that is made from it.  The parts refer to one another, so it stays where it is.
   struct Numerics {
     Problem problem;
-    Transcription t;
+    Transcription whole;
+    Freedom freedom;
+    std::optional<Transcription> part;  // in a window
     Layout layout;
     Newton newton;
 
-    explicit Numerics(Problem p)
-        : problem(std::move(p)), t(transcribe(problem)), layout(arrange(t)), newton(t, layout) {}
+    Numerics(Problem problem, const Window& window);
     Numerics(const Numerics&) = delete;
     Numerics& operator=(const Numerics&) = delete;
+
+    const Transcription& t() const { return part ? *part : whole; }  // what is iterated
   };
   using Clock = std::chrono::steady_clock;
 
@@ -85,6 +88,7 @@ class Session {
   void act(const Iterate& iterate, const Watch& watch);
   void act(const Reset& reset, const Watch& watch);
   void act(const Control& control, const Watch& watch);
+  void act(const Window& window, const Watch& watch);
   template <class Edit>
   requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
   void act(const Edit& edit, const Watch& watch);
@@ -96,14 +100,19 @@ class Session {
   bool reached(double tolerance) const;
   std::string count() const;
   std::string standing() const;
+  std::vector<double> unknowns() const;
   std::vector<double> settled() const;
+  std::string standing_elsewhere(double tolerance) const;
   double elapsed() const;
 
   Clock::time_point begun_ = Clock::now();
   Edited edited_;
   std::optional<Motion> start_;
   int declared_ = 0;  // actions of the problem's list before which everything is declared
+  Window window_;
   std::unique_ptr<Numerics> now_;
+  std::vector<double> x_;         // all unknowns; what is free is in state_
+  double objective_outside_ = 0;  // the part of the objective that the window leaves as it is
   NewtonState state_;
   Outcome outcome_;
   bool judged_ = false;  // the outcome speaks of the present point

@@ -6,17 +6,13 @@
 #include <tuple>
 
 #include "common/diagnostic.h"
+#include "optimizer/batch.h"
 #include "optimizer/quadrature.h"
 
 namespace spacetime::optimizer {
 namespace {
 
 constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
-
-int index_of(const Problem& problem, const std::string& dof) {
-  const auto found = std::ranges::find(problem.dofs, dof, &Dof::name);
-  return static_cast<int>(found - problem.dofs.begin());
-}
 
 std::vector<double> distinct_knots(const Problem& problem, const std::vector<int>& dofs) {
   std::vector<double> knots;
@@ -58,112 +54,24 @@ std::vector<double> finest_knots(const Problem& problem, const Program& program)
   return finest.empty() ? knots_of(problem, program) : finest;
 }
 
-// What of each input the program's derivative entries mean: a slot's derivative, or a functional.
-struct Meaning {
-  int slot = -1, derivative = 0, border = -1;
-};
-
-void add_slots(const Problem& problem, Batch& batch, std::vector<Meaning>& meanings) {
-  const Program& program = *batch.program;
-  std::map<int, int> slot_of_dof;
-  std::map<std::vector<double>, int> table_of_knots;
-  meanings.resize(program.inputs.size());
-  for (std::size_t i = 0; i < program.inputs.size(); ++i) {
-    const Input& input = program.inputs[i];
-    if (input.kind == InputKind::functional) meanings[i].border = input.index;
-    if (input.kind == InputKind::parameter) {
-      const auto found = std::ranges::find(problem.parameters, input.name, &Parameter::name);
-      meanings[i].border = static_cast<int>(problem.functionals.size() + (found - problem.parameters.begin()));
-    }
-    if (input.kind != InputKind::dof) continue;
-    const int dof = index_of(problem, input.name);
-    const auto [found, added] = slot_of_dof.try_emplace(dof, static_cast<int>(batch.slots.size()));
-    if (added) {
-      const Basis& basis = problem.dofs[dof].basis;
-      const auto [table, fresh] = table_of_knots.try_emplace(basis.knots, static_cast<int>(batch.tables.size()));
-      if (fresh) {
-        auto& values = batch.tables.emplace_back();
-        values.reserve(batch.times.size());
-        for (const double t : batch.times) values.push_back(basis_values(basis, t));
-      }
-      batch.slots.push_back({dof, table->second, {-1, -1, -1}});
-    }
-    batch.slots[found->second].input[input.derivative] = static_cast<int>(i);
-    meanings[i] = {found->second, input.derivative, -1};
-  }
-}
-
-void add_jacobian(Batch& batch, const std::vector<Meaning>& meanings) {
-  std::map<std::pair<int, int>, int> block_of;
-  const auto& entries = batch.program->jacobian;
-  for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
-    const Meaning& by = meanings[entries[k].input];
-    if (by.border >= 0) {
-      batch.border_jacobian.push_back({entries[k].row, by.border, k});
-      continue;
-    }
-    const auto [found, added] =
-        block_of.try_emplace({entries[k].row, by.slot}, static_cast<int>(batch.jacobian.size()));
-    if (added) batch.jacobian.push_back({entries[k].row, by.slot, {-1, -1, -1}});
-    batch.jacobian[found->second].entry[by.derivative] = k;
-  }
-}
-
-void add_hessian(Batch& batch, const std::vector<Meaning>& meanings) {
-  std::map<std::pair<int, int>, int> block_of;
-  const auto& entries = batch.program->hessian;
-  for (int k = 0; k < static_cast<int>(entries.size()); ++k) {
-    Meaning a = meanings[entries[k].row], b = meanings[entries[k].column];
-    if (a.border < 0 && b.border >= 0) std::swap(a, b);
-    if (a.border >= 0) {
-      batch.border_hessian.push_back({a.border, b.border, b.slot, b.derivative, k});
-      continue;
-    }
-    if (a.slot < b.slot) std::swap(a, b);
-    const auto [found, added] = block_of.try_emplace({a.slot, b.slot}, static_cast<int>(batch.hessian.size()));
-    if (added) {
-      auto& block = batch.hessian.emplace_back(HessianBlock{a.slot, b.slot, {}});
-      for (auto& row : block.entry) row.fill(-1);
-    }
-    auto& entry = batch.hessian[found->second].entry;
-    entry[a.derivative][b.derivative] = k;
-    if (a.slot == b.slot) entry[b.derivative][a.derivative] = k;
-  }
-}
-
-void add_chunks(Batch& batch) {
-  batch.chunks.push_back(0);
-  for (int s = 1; s < batch.samples(); ++s) {
-    const bool same =
-        std::ranges::all_of(batch.tables, [&](const auto& table) { return table[s].first == table[s - 1].first; });
-    if (!same) batch.chunks.push_back(s);
-  }
-  if (batch.samples() > 0) batch.chunks.push_back(batch.samples());
-}
-
 class Transcriber {
  public:
-  explicit Transcriber(const Problem& problem) : problem_(problem) { out_.problem = &problem; }
+  Transcriber(const Problem& problem, const Freedom& freedom) : problem_(problem), freedom_(freedom) {
+    out_.problem = &problem;
+  }
 
   Transcription run() {
     out_.constants = evaluate_constants(problem_);
-    int unknowns = 0;
-    for (const Dof& dof : problem_.dofs) {
-      out_.first.push_back(unknowns);
-      unknowns += dof.basis.size();
-    }
-    out_.first.push_back(unknowns);
-    out_.first.push_back(unknowns + static_cast<int>(problem_.functionals.size()));
-    out_.first.push_back(out_.first.back() + static_cast<int>(problem_.parameters.size()));
+    for (const auto& [hash, program] : problem_.programs) out_.evaluators.emplace(hash, Evaluator(program));
+    add_functionals();
+    add_objective();
+    for (int k = 0; k < static_cast<int>(problem_.constraints.size()); ++k) add_constraint(k);
+    number_unknowns();
     if (out_.unknowns() == 0) {
       throw InputError(
           "there is nothing to find: the problem has no degree of freedom and no parameter. Declare a `dof`");
     }
     add_bounds();
-    for (const auto& [hash, program] : problem_.programs) out_.evaluators.emplace(hash, Evaluator(program));
-    add_functionals();
-    add_objective();
-    for (int k = 0; k < static_cast<int>(problem_.constraints.size()); ++k) add_constraint(k);
     return std::move(out_);
   }
 
@@ -180,38 +88,108 @@ class Transcriber {
   }
 
   void finish(Batch batch) {
-    std::vector<Meaning> meanings;
-    add_slots(problem_, batch, meanings);
-    add_jacobian(batch, meanings);
-    add_hessian(batch, meanings);
-    add_chunks(batch);
+    complete(problem_, batch);
     out_.batches.push_back(std::move(batch));
   }
 
-  // The quadrature points of an integral, or the one time of `at`, or the one sample without a time.
+  // The quadrature points of an integral, or the one time of `at`, or the one sample without a time; those that depend
+  // on what is free.
   void sample(Batch& batch, bool integral, bool timed, const std::optional<Quantity>& from,
               const std::optional<Quantity>& to, const std::string& what) {
     if (!timed) {
       batch.times = {no_time};
       batch.weights = {1};
-      return;
-    }
-    const double a = from ? value(*from, what + ": a time") : problem_.start;
-    const double b = to ? value(*to, what + ": a time") : integral ? problem_.end : a;
-    for (const double t : {a, b}) {
-      if (t < problem_.start || t > problem_.end) {
-        throw InputError(what + ": the time " + std::to_string(t) + " lies outside the animation's, " +
-                         std::to_string(problem_.start) + " to " + std::to_string(problem_.end));
+    } else {
+      const double a = from ? value(*from, what + ": a time") : problem_.start;
+      const double b = to ? value(*to, what + ": a time") : integral ? problem_.end : a;
+      for (const double t : {a, b}) {
+        if (t < problem_.start || t > problem_.end) {
+          throw InputError(what + ": the time " + std::to_string(t) + " lies outside the animation's, " +
+                           std::to_string(problem_.start) + " to " + std::to_string(problem_.end));
+        }
+      }
+      if (integral) {
+        auto rule = gauss_legendre(knots_of(problem_, *batch.program), a, b);
+        batch.times = std::move(rule.times);
+        batch.weights = std::move(rule.weights);
+      } else {
+        batch.times = {a};
+        batch.weights = {1};
       }
     }
-    if (integral) {
-      auto rule = gauss_legendre(knots_of(problem_, *batch.program), a, b);
-      batch.times = std::move(rule.times);
-      batch.weights = std::move(rule.weights);
-    } else {
-      batch.times = {a};
-      batch.weights = {1};
+    keep_free(batch);
+  }
+
+  // Drops the samples that no free unknown has a part in.
+  void keep_free(Batch& batch) const {
+    if (freedom_.whole) return;
+    struct Use {
+      int dof;
+      std::array<bool, max_derivative + 1> derivative{};
+    };
+    std::vector<Use> uses;
+    for (const Input& input : batch.program->inputs) {
+      const int border = border_index_of(problem_, input);
+      if (border >= 0 && border < out_.functionals() && out_.functional_row[border] >= 0) return;
+      if (input.kind != InputKind::dof) continue;
+      const int dof = index_of(problem_, input.name);
+      auto found = std::ranges::find(uses, dof, &Use::dof);
+      if (found == uses.end()) found = uses.insert(found, Use{dof});
+      found->derivative[input.derivative] = true;
     }
+    const auto depends = [&](double time) {
+      return std::ranges::any_of(uses, [&](const Use& use) {
+        const Basis& basis = problem_.dofs[use.dof].basis;
+        const auto [from, to] = freedom_.dofs[use.dof];
+        if (from >= to || !(basis.knots[from] <= time && time <= basis.knots[to + 3])) return false;
+        const BasisValues values = basis_values(basis, time);
+        for (int k = 0; k < 4; ++k) {
+          if (!freedom_.has(use.dof, values.first + k)) continue;
+          for (int d = 0; d <= max_derivative; ++d) {
+            if (use.derivative[d] && values.b[d][k] != 0) return true;
+          }
+        }
+        return false;
+      });
+    };
+    std::size_t kept = 0;
+    for (std::size_t s = 0; s < batch.times.size(); ++s) {
+      if (!depends(batch.times[s])) continue;
+      batch.times[kept] = batch.times[s];
+      if (!batch.weights.empty()) batch.weights[kept] = batch.weights[s];
+      ++kept;
+    }
+    batch.times.resize(kept);
+    if (!batch.weights.empty()) batch.weights.resize(kept);
+  }
+
+  // Of each degree of freedom the coefficients that are free or that a sample touches.
+  void number_unknowns() {
+    std::vector<Freedom::Range> held = freedom_.dofs;
+    const auto hold = [&](const Batch& batch) {
+      for (const Slot& slot : batch.slots) {
+        auto& [from, to] = held[slot.dof];
+        for (const BasisValues& basis : batch.tables[slot.table]) {
+          if (from == to) from = to = basis.first;
+          from = std::min(from, basis.first);
+          to = std::max(to, basis.first + 4);
+        }
+      }
+    };
+    for (const Batch& batch : out_.batches) hold(batch);
+    for (const Conditional& conditional : out_.conditionals) hold(conditional.condition);
+    int unknowns = 0;
+    for (int dof = 0; dof < out_.dofs(); ++dof) {
+      out_.first.push_back(unknowns);
+      out_.from.push_back(held[dof].from);
+      unknowns += held[dof].to - held[dof].from;
+      for (int k = held[dof].from; k < held[dof].to; ++k) out_.fixed.push_back(!freedom_.has(dof, k));
+    }
+    out_.first.push_back(unknowns);
+    out_.first.push_back(unknowns + static_cast<int>(problem_.functionals.size()));
+    out_.first.push_back(out_.first.back() + static_cast<int>(problem_.parameters.size()));
+    for (const int row : out_.functional_row) out_.fixed.push_back(row < 0);
+    out_.fixed.resize(out_.unknowns(), !freedom_.whole);
   }
 
   void add_bounds() {
@@ -226,8 +204,11 @@ class Transcriber {
         throw InputError("the bounds of " + name + " leave no room: " + std::to_string(low) + " to " +
                          std::to_string(high) + ". Use `eliminate`, or a constraint, for what does not move");
       }
-      std::fill(out_.lower.begin() + from, out_.lower.begin() + to, low);
-      std::fill(out_.upper.begin() + from, out_.upper.begin() + to, high);
+      for (int u = from; u < to; ++u) {
+        if (out_.fixed[u]) continue;
+        out_.lower[u] = low;
+        out_.upper[u] = high;
+      }
     };
     for (int k = 0; k < out_.dofs(); ++k) {
       const Dof& dof = problem_.dofs[k];
@@ -241,6 +222,7 @@ class Transcriber {
   }
 
   void add_functionals() {
+    out_.elsewhere.assign(problem_.functionals.size(), 0.0);
     for (int k = 0; k < static_cast<int>(problem_.functionals.size()); ++k) {
       const Functional& functional = problem_.functionals[k];
       Batch batch = start_batch(functional.program);
@@ -248,6 +230,9 @@ class Transcriber {
       batch.targets[functional.output] = {Target::Kind::functional, k, 1};
       sample(batch, functional.kind == Functional::Kind::integral, true, functional.from, functional.to,
              "a functional");
+      const bool is_free = freedom_.whole || batch.samples() > 0;
+      out_.functional_row.push_back(is_free ? static_cast<int>(out_.rows.size()) : -1);
+      if (!is_free) continue;
       finish(std::move(batch));
       out_.rows.push_back({Row::Kind::functional, k, no_time, 0, false});
     }
@@ -265,6 +250,7 @@ class Transcriber {
         Batch batch = start_batch(piece.program);
         sample(batch, piece.kind == Piece::Kind::integral, piece.kind != Piece::Kind::once, piece.from, piece.to,
                term.name);
+        if (batch.samples() == 0) continue;
         Site site{piece.program, piece.kind, piece.kind == Piece::Kind::once ? std::vector<double>{} : batch.times};
         auto [found, added] = batch_of.try_emplace(std::move(site), static_cast<int>(pending.size()));
         // An output that two pieces share (one term twice) needs a batch of its own.
@@ -294,6 +280,8 @@ class Transcriber {
     Batch batch = start_batch(constraint.program);
     batch.times = scope_times(problem_, out_.constants, constraint.scope, finest_knots(problem_, *batch.program),
                               constraint.name);
+    keep_free(batch);
+    if (batch.times.empty()) return;
     if (constraint.condition) keep_where(*constraint.condition, batch);
     batch.first_row = static_cast<int>(out_.rows.size());
     if (constraint.condition) add_condition(*constraint.condition, batch);
@@ -327,17 +315,19 @@ class Transcriber {
     conditional.condition.times = batch.times;
     conditional.condition.weights.assign(batch.times.size(), 1.0);
     conditional.condition.targets.resize(conditional.condition.outputs());
-    std::vector<Meaning> meanings;
-    add_slots(problem_, conditional.condition, meanings);
+    complete(problem_, conditional.condition);
     out_.conditionals.push_back(std::move(conditional));
   }
 
   const Problem& problem_;
+  const Freedom& freedom_;
   Transcription out_;
 };
 
 }  // namespace
 
-Transcription transcribe(const Problem& problem) { return Transcriber(problem).run(); }
+Transcription transcribe(const Problem& problem) { return transcribe(problem, all_of(problem)); }
+
+Transcription transcribe(const Problem& problem, const Freedom& freedom) { return Transcriber(problem, freedom).run(); }
 
 }  // namespace spacetime::optimizer

@@ -17,6 +17,7 @@
 #include "common/evaluate.h"
 #include "common/problem.h"
 #include "optimizer/constants.h"
+#include "optimizer/freedom.h"
 
 namespace spacetime::optimizer {
 
@@ -97,8 +98,12 @@ struct Conditional {
 struct Transcription {
   const Problem* problem = nullptr;
   Constants constants;
-  std::vector<int> first;  // first unknown of each degree of freedom, of the functionals, of the parameters; the end
+  std::vector<int> first;   // first unknown of each degree of freedom, of the functionals, of the parameters; the end
+  std::vector<int> from;    // the coefficient of each degree of freedom that stands at `first`
+  std::vector<char> fixed;  // one an unknown: data, not to be moved
   std::vector<double> lower, upper;  // of each unknown, infinite where there is none
+  std::vector<int> functional_row;   // of each functional; -1 where it is data
+  std::vector<double> elsewhere;     // what of each functional lies outside the window
   std::vector<Row> rows;
   std::vector<Batch> batches;
   std::vector<Conditional> conditionals;
@@ -109,10 +114,12 @@ struct Transcription {
   int first_functional() const { return first[dofs()]; }
   int first_parameter() const { return first[dofs() + 1]; }
   int unknowns() const { return first[dofs() + 2]; }
+  int origin(int dof) const { return first[dof] - from[dof]; }  // where coefficient 0 would stand
 };
 
 // The problem must be valid (protocol reads only such) and outlive the transcription.  Throws InputError where a
 // scope, weight or bound makes no sense with the constants' present values.
 Transcription transcribe(const Problem& problem);
+Transcription transcribe(const Problem& problem, const Freedom& freedom);
 
 }  // namespace spacetime::optimizer

@@ -7,16 +7,8 @@
 #include "optimizer/newton.h"
 
 namespace spacetime {
-namespace {
 
 using namespace optimizer;
-
-double entry_of(const BorderedMatrix& matrix, int high, int low) {
-  if (high >= matrix.n) return matrix.border(high - matrix.n, low);
-  return high - low > matrix.width ? 0 : matrix.band[static_cast<std::size_t>(low) * (matrix.width + 1) + (high - low)];
-}
-
-}  // namespace
 
 IpoptProblem::IpoptProblem(const Transcription& transcription, const Layout& layout, std::vector<double> start)
     : x(std::move(start)), t_(transcription), layout_(layout), linear_(start_linearisation(layout)) {
@@ -41,7 +33,7 @@ void IpoptProblem::find_pattern() {
   for (int u = 0; u < t_.unknowns(); ++u) {
     const auto listed = [&](int row, int other, const BorderedMatrix& matrix, std::vector<Entry>& entries) {
       const auto [low, high] = std::minmax(layout_.of_unknown[u], other);
-      if (entry_of(matrix, high, low) != 0) entries.push_back({row, u, high, low});
+      if (matrix.at(high, low) != 0) entries.push_back({row, u, high, low});
     };
     for (std::size_t r = 0; r < t_.rows.size(); ++r) {
       listed(static_cast<int>(r), layout_.of_row[r], linear_.jacobian, jacobian_);
@@ -127,7 +119,7 @@ bool IpoptProblem::eval_jac_g(Index, const Number* at, bool is_new, Index, Index
   for (Index k = 0; k < entries; ++k) {
     const Entry& entry = jacobian_[k];
     if (values) {
-      values[k] = entry_of(linear_.jacobian, entry.high, entry.low);
+      values[k] = linear_.jacobian.at(entry.high, entry.low);
     } else {
       rows[k] = entry.row;
       columns[k] = entry.column;
@@ -149,7 +141,7 @@ void IpoptProblem::add_hessian(const Number* lambda, double of_lambda, double sc
     add_row_curvature(t_, layout_, at_, values_, scaled, workspace_, linear_);
   }
   for (std::size_t k = 0; k < hessian_.size(); ++k) {
-    values[k] += scale * entry_of(linear_.hessian, hessian_[k].high, hessian_[k].low);
+    values[k] += scale * linear_.hessian.at(hessian_[k].high, hessian_[k].low);
   }
 }
 

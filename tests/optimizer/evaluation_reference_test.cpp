@@ -145,12 +145,7 @@ std::string chain(int links) {
 // Sums of the band's and the border's squares, each off-diagonal entry counted twice.
 double frobenius(const BorderedMatrix& matrix) {
   double squares = 0;
-  for (int j = 0; j < matrix.n; ++j) {
-    for (int i = j; i <= j + matrix.width && i < matrix.n; ++i) {
-      const double entry = matrix.band[static_cast<std::size_t>(j) * (matrix.width + 1) + (i - j)];
-      squares += (i == j ? 1 : 2) * entry * entry;
-    }
-  }
+  for_each_entry(matrix, [&](int i, int j, double entry) { squares += (i == j ? 1 : 2) * entry * entry; });
   return std::sqrt(squares);
 }
 
