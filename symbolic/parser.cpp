@@ -7,6 +7,7 @@
 #include "symbolic/nearest.h"
 #include "symbolic/parse_statement.h"
 #include "symbolic/quoted.h"
+#include "symbolic/vocabulary.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -18,7 +19,9 @@ void unknown_statement(Parsing& p, const Token& word) {
   if (p.in.peek().kind == TokenKind::equal)
     return p.in.fail(word.span, "a statement begins with what it is: write 'constant " + std::string(word.text) +
                                     " = ...', 'let ...' or 'dof ...'");
-  std::vector<std::string> words(statement_words().begin(), statement_words().end());
+  std::vector<std::string> words;
+  for (const Word& known : vocabulary())
+    if (begins_statement(known.word)) words.emplace_back(known.word);
   p.in.fail(word.span, "there is no statement " + quoted(word.text) + suggestion(word.text, words));
 }
 

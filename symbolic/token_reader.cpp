@@ -1,24 +1,16 @@
 #include "symbolic/token_reader.h"
-#include "symbolic/quoted.h"
 
 #include <algorithm>
 
-namespace spacetime::symbolic {
+#include "symbolic/quoted.h"
+#include "symbolic/vocabulary.h"
 
-const std::vector<std::string_view>& statement_words() {
-  static const std::vector<std::string_view> words{
-      "time",    "constant",  "parameter", "trajectory", "dof",     "let",     "define", "eliminate", "creature",
-      "script",  "constrain", "minimize",  "keyframe",   "solve",   "iterate", "window", "refine",    "shake",
-      "filter",  "damp",      "adapt",     "lock",       "set",     "weight",  "enable", "disable",   "delete",
-      "replace", "scope",     "bound",     "key",        "control", "reset"};
-  return words;
-}
+namespace spacetime::symbolic {
 
 bool TokenReader::at_statement() const {
   const Token& token = peek();
   if (token.kind != TokenKind::name || !token.line_start) return false;
-  const auto& words = statement_words();
-  if (std::find(words.begin(), words.end(), token.text) == words.end()) return false;
+  if (!begins_statement(token.text)) return false;
   // The words are no reserved names: what follows tells a statement from a name that begins a continued line.
   switch (next().kind) {
     case TokenKind::name:

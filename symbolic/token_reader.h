@@ -60,7 +60,4 @@ class TokenReader {
   bool failed_ = false;
 };
 
-// Words a statement may begin with.
-const std::vector<std::string_view>& statement_words();
-
 }  // namespace spacetime::symbolic
