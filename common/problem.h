@@ -108,6 +108,7 @@ struct Keyframe {
   Quantity time;
   std::vector<Key> keys;
   Place place;
+  int since = 0;  // as a constraint's: part of the sketch that `reset` returns to from there on
   bool operator==(const Keyframe&) const = default;
 };
 

@@ -106,6 +106,7 @@ Problem in_effect(const Edited& edited, int action) {
   const auto out = [&](const auto& s) { return s.replacement || s.since > action || edited.disabled.contains(s.name); };
   std::erase_if(problem.constraints, out);
   std::erase_if(problem.objective, out);
+  std::erase_if(problem.keyframes, [&](const Keyframe& keyframe) { return keyframe.since > action; });
   return problem;
 }
 

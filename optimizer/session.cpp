@@ -80,7 +80,8 @@ void Session::act(const Solve& solve, const Watch& watch) {
 void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
 
 void Session::act(const Reset&, const Watch&) {
-  restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
+  // Keyframes that were declared meanwhile count from here on.
+  restart(start_of(in_effect(edited_, declared_), now_->whole, start_ ? &*start_ : nullptr));
 }
 
 void Session::act(const Window& window, const Watch&) {

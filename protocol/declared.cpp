@@ -150,6 +150,12 @@ void Declared::statements() {
   terms_ = statements(problem_.objective, "/objective", names);
 }
 
+void Declared::beginning(int since, const std::string& path) const {
+  const std::size_t actions = problem_.actions.size();
+  if (since < 0 || static_cast<std::size_t>(since) > actions)
+    fail(path + "/since", "must be from 0 to " + std::to_string(actions) + ", the number of actions");
+}
+
 template <class Statement>
 Declared::Places Declared::statements(const std::vector<Statement>& list, std::string_view list_path,
                                       Names& names) const {
@@ -157,9 +163,7 @@ Declared::Places Declared::statements(const std::vector<Statement>& list, std::s
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto path = below(list_path, i);
     check_place(list[i].place, path);
-    if (list[i].since < 0 || static_cast<std::size_t>(list[i].since) > problem_.actions.size()) {
-      fail(path + "/since", "must be from 0 to " + std::to_string(problem_.actions.size()) + ", the number of actions");
-    }
+    beginning(list[i].since, path);
     if (list[i].replacement) continue;
     check_name(list[i].name, path + "/name", names);
     places.emplace(list[i].name, i);

@@ -67,6 +67,8 @@ class Declared {
   // path/lower and path/upper.
   void bounds(const std::optional<Quantity>& lower, const std::optional<Quantity>& upper,
               const std::string& path) const;
+  // path/since: an action, or behind all of them.
+  void beginning(int since, const std::string& path) const;
   // path/keys: at most one a degree of freedom.
   void keys(const std::vector<Key>& keys, const std::string& path) const;
   // How many instances a constraint with these needs has, as far as the scope's numbers alone tell.

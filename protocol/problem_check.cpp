@@ -125,6 +125,7 @@ class Check {
       check_place(keyframe.place, path);
       declared_.instant(keyframe.time, path + "/time");
       declared_.keys(keyframe.keys, path);
+      declared_.beginning(keyframe.since, path);
     }
   }
 

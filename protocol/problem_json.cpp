@@ -184,13 +184,16 @@ void write(Writer& to, const Keyframe& keyframe) {
   to.object([&] {
     member(to, "time", keyframe.time);
     write_keys(to, keyframe.keys);
+    if (keyframe.since != 0) to.member("since", keyframe.since);
     write_place(to, keyframe.place);
   });
 }
 
 Keyframe keyframe_from(const Node& node) {
-  node.object({"time", "keys"}, {"line", "column"});
-  return {quantity_from(node["time"]), keys_from(node), place_from(node)};
+  node.object({"time", "keys"}, {"since", "line", "column"});
+  Keyframe keyframe{quantity_from(node["time"]), keys_from(node), place_from(node)};
+  if (const auto since = node.find("since")) keyframe.since = since->integer();
+  return keyframe;
 }
 
 void write(Writer& to, const Plot& plot) {

@@ -76,13 +76,9 @@ std::vector<Key> elaborate_keys(Model& model, const std::vector<Assignment>& ass
 }
 
 void elaborate_keyframe(Model& model, const KeyframeDeclaration& declaration, const Span& span) {
-  if (model.first_action)
-    return report(model, span,
-                  "a sketch is what the first action starts from: move this keyframe up, or write 'key' for the motion "
-                  "as it is here",
-                  {{*model.first_action, "the first action is here"}});
   Keyframe out;
   out.place = place_of(span);
+  out.since = static_cast<int>(model.problem.actions.size());
   std::optional<double> now;
   if (const auto time = elaborate_time(model, declaration.time, "the keyframe's time")) {
     out.time = *time;

@@ -208,6 +208,21 @@ TEST(Run, IterateZeroJudgesAndMovesNothing) {
   EXPECT_EQ(coefficients_of(judged), coefficients_of(*options.start));
 }
 
+TEST(Run, KeyframesCountForTheResetsBehindThem) {
+  const std::string head =
+      "time [0, 1]\ntrajectory bspline spans 4\ndof x = 5\ndof y = 7\nminimize integral(x^2)\nkeyframe 0: x = 1\n";
+  for (const auto& [actions, ends] : std::vector<std::pair<std::string, double>>{
+           {"iterate 0\nkeyframe 1: x = 3\niterate 0\n", 1},
+           {"iterate 0\nkeyframe 1: x = 3\nreset\niterate 0\n", 3},
+           {"iterate 1\nreset\nkeyframe 1: x = 3\niterate 0\n", 1},
+           {"iterate 1\nkeyframe 1: x = 3\ncontrol x 0 = 8\nreset\niterate 0\n", 3}}) {
+    const Motion motion = run_scene(head + actions);
+    EXPECT_NEAR(at(motion, 0), 1, 1e-12) << actions;
+    EXPECT_NEAR(at(motion, 1), ends, 1e-12) << actions;
+    EXPECT_EQ(motion.dofs[1].coefficients, std::vector<double>(7, 7.0));
+  }
+}
+
 TEST(Run, IterateGoesSoFarAndNoFurther) {
   const Motion whole = run_scene(pendulum);
   ASSERT_EQ(whole.status, Status::converged) << whole.message;

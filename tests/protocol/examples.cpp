@@ -177,7 +177,7 @@ Problem rich_problem() {
                        {"objective 2", {0, twice_g, 0}, {}, {}, 1},
                        {"energy", number(3), {{Piece::Kind::once, product, 0, {}, {}}}, {24, 1}, 4, true}};
   problem.keyframes = {{number(0.8), {{"arm.elbow", number(-0.8)}, {"ball.X", {0, twice_g, 0}}}, {16, 1}},
-                       {{0, twice_g, 0}, {}, {}}};
+                       {{0, twice_g, 0}, {}, {}, 3}};
   problem.plots = {{"swing", square, {0}}, {"pair \"of\" two\\", product, {1, 0}}};
   std::vector<int> outputs(12);
   std::iota(outputs.begin(), outputs.end(), 0);

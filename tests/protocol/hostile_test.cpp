@@ -39,6 +39,7 @@ std::string small_document() {
   problem.bodies.clear();
   problem.objective.resize(1);
   problem.constraints.resize(1);
+  problem.keyframes.resize(1);
   problem.actions.resize(1);
   return write(problem);
 }

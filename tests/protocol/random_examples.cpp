@@ -121,7 +121,7 @@ class RandomProblem {
     repeat(3, [&] { add_term(); });
     add_replacements(problem_.constraints);
     add_replacements(problem_.objective);
-    repeat(3, [&] { problem_.keyframes.push_back({instant(), keys(), place()}); });
+    repeat(3, [&] { problem_.keyframes.push_back({instant(), keys(), place(), number_below(actions_ + 1)}); });
     repeat(3, [&] { add_plot(); });
     repeat(3, [&] { add_body(); });
     for (int i = 0; i < actions_; ++i) problem_.actions.push_back({action(), place()});

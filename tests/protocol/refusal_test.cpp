@@ -179,6 +179,7 @@ TEST(ProblemRefuses, WhatMeansNothing) {
           {"/constraints/4/condition", R"({"program": "SLOW", "output": 0})", "/constraints/4/condition/program",
            "what is evaluated once cannot depend on time or on a trajectory"},
           {"/constraints/6/since", "7", nullptr, "must be from 0 to 6, the number of actions"},
+          {"/keyframes/1/since", "7", nullptr, "must be from 0 to 6, the number of actions"},
           {"/objective/1/since", "7", nullptr, "must be from 0 to 6, the number of actions"},
           {"/constraints/7/name", R"("nobody")", nullptr, R"(there is no "nobody" here)"},
           {"/constraints/7/name", R"("energy")", nullptr, "a replacement bears the name of what it replaces"},

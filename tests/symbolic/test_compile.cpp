@@ -318,6 +318,13 @@ TEST(Compile, KeysOfTuplesAndNames) {
   EXPECT_EQ(problem.keyframes[2].keys, (std::vector<Key>{{"y", {5, {}, 0}}, {"x", {6, {}, 0}}}));
 }
 
+TEST(Compile, KeyframesBehindActionsBeginThere) {
+  const Problem problem = problem_of(head + "keyframe 0: x = 1\nsolve\niterate 0\nkeyframe 1: x = 2\nreset\n");
+  ASSERT_EQ(problem.keyframes.size(), 2U);
+  EXPECT_EQ(problem.keyframes[0].since, 0);
+  EXPECT_EQ(problem.keyframes[1].since, 2);
+}
+
 TEST(Compile, ActionsInOrder) {
   const Problem problem = problem_of(head + "solve iterations 5 tolerance 1e-6\niterate 0\nsolve method newton\n");
   ASSERT_EQ(problem.actions.size(), 3U);

@@ -329,7 +329,6 @@ TEST(Diagnostics, Actions) {
            {goal + "control x 1.5 = 0", 7, 11, "a whole number"},
            {goal + "control x 1 = t", 7, 15, "depends on time"},
            {goal + "reset x", 7, 7, "expected the end of the statement"},
-           {goal + "solve\nkeyframe 0: x = 1", 8, 1, "move this keyframe up, or write 'key'"},
            {"trajectory bspline spans 4\nsolve\ntime [0, 2]", 3, 1, "must stand before the first action"},
            {goal + "solve\ntrajectory bspline spans 4 for x", 8, 1, "must stand before the first action"}})
     expect_one(wrong);
