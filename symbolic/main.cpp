@@ -9,9 +9,10 @@
 #include "protocol/diagnostics_json.h"
 #include "protocol/problem_json.h"
 #include "symbolic/command.h"
+#include "symbolic/command_complete.h"
+#include "symbolic/command_format.h"
 #include "symbolic/command_print.h"
 #include "symbolic/compile.h"
-#include "symbolic/format.h"
 
 namespace {
 
@@ -29,7 +30,6 @@ void print(const spacetime::symbolic::Statistics& s) {
 struct Options {
   std::string file = "-", output = "-";
   bool json = false, statistics = false;
-  bool in_place = false, check = false;
 };
 
 int compile(const Options& options) {
@@ -42,24 +42,6 @@ int compile(const Options& options) {
   if (options.statistics) print(result.statistics);
   if (!result.problem) return 1;
   spacetime::write_text(options.output, spacetime::write(*result.problem));
-  return 0;
-}
-
-int format(const Options& options) {
-  if (options.in_place && options.file == "-")
-    throw spacetime::InputError("'format --in-place' needs a file: standard input is formatted to standard output");
-  const std::string text = spacetime::read_text(options.file);
-  const auto diagnostics = spacetime::symbolic::compile(text).diagnostics;
-  print(diagnostics, shown(options.file), text);
-  if (!diagnostics.empty()) return 1;
-  const std::string formatted = *spacetime::symbolic::format(text).text;
-  if (options.check) {
-    if (formatted == text) return 0;
-    std::cerr << shown(options.file) << ": is not formatted: 'spacetime-symbolic format --in-place' does it\n";
-    return 1;
-  }
-  if (options.in_place && formatted == text) return 0;
-  spacetime::write_text(options.in_place ? options.file : options.output, formatted);
   return 0;
 }
 
@@ -77,23 +59,16 @@ int main(int argc, char** argv) {
   command->add_flag("--json", options.json,
                     "Write the mistakes as a JSON document (an empty list where there are none)");
   command->add_flag("--statistics", options.statistics, "Print sizes and times to standard error");
-  CLI::App* formatting = app.add_subcommand(
-      "format", "Write a scene in its canonical layout; one with mistakes is refused and nothing is written");
-  formatting->add_option("FILE", options.file, "The scene, or - for standard input (the default)");
-  auto* output = formatting->add_option("-o,--output", options.output, "Write it to this file");
-  auto* in_place = formatting->add_flag("-i,--in-place", options.in_place, "Write it in place of the scene");
-  auto* check = formatting->add_flag("--check", options.check, "Write nothing: exit with 1 where it would change");
-  in_place->excludes(output)->excludes(check);
-  check->excludes(output);
-  const auto printing = spacetime::symbolic::add_print(app), counting = spacetime::symbolic::add_count(app);
+  using spacetime::symbolic::Command;
+  const Command others[]{spacetime::symbolic::add_print(app), spacetime::symbolic::add_count(app),
+                         spacetime::symbolic::add_format(app), spacetime::symbolic::add_complete(app)};
   app.allow_extras();
   try {
     app.parse(argc, argv);
     const std::vector<std::string> rest = app.remaining();
     if (command->parsed() && rest.empty()) return compile(options);
-    if (formatting->parsed() && rest.empty()) return format(options);
-    if (printing.app->parsed() && rest.empty()) return printing.run();
-    if (counting.app->parsed() && rest.empty()) return counting.run();
+    for (const Command& other : others)
+      if (other.app->parsed() && rest.empty()) return other.run();
     if (rest.empty()) throw spacetime::InputError("say what to do: 'spacetime-symbolic compile FILE', or --help");
     throw spacetime::InputError("there is no command or option '" + rest.front() +
                                 "': write 'spacetime-symbolic compile FILE', or --help");
