@@ -164,7 +164,8 @@ class Completer {
       add(Kind::member, "alpha", "angular acceleration in world axes");
     }
     if (kind == Kind::dof && name.find('.') != std::string::npos)
-      return add(Kind::member, "force", "the generalised force: what a motor must supply");
+      add(Kind::member, "force", "the generalised force: what a motor must supply");
+    if (kind == Kind::dof || kind == Kind::constant || kind == Kind::parameter) return;  // single numbers
     for (const char* component : {"x", "y", "z"}) add(Kind::member, component, "a component");
   }
 

@@ -28,12 +28,15 @@ class Collector {
   }
 
  private:
-  // The rest of the line from its statement on, without a comment and without the spaces at its end.
+  // The rest of the line from its statement on, without a comment, columns, and spaces at its end.
   std::string declaration(const Span& span) const {
     std::string_view line = lines_.at(static_cast<std::size_t>(span.line) - 1);
     line.remove_prefix(std::min(line.size(), static_cast<std::size_t>(span.column) - 1));
     line = line.substr(0, line.find_first_of("#;{\r"));
-    return std::string(line.substr(0, line.find_last_not_of(" \t") + 1));
+    std::string out(line.substr(0, line.find_last_not_of(" \t") + 1));
+    const auto both_spaces = [](char a, char b) { return a == ' ' && b == ' '; };
+    out.erase(std::unique(out.begin(), out.end(), both_spaces), out.end());
+    return out;
   }
 
   void add(Kind kind, const std::string& name, const Span& span) {

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"solve; w|", {"window", "weight"}, {"when"}}, Case{"dof |", {}, {"x", "dof", "sin"}},
         Case{"constrain arm.|", {"shoulder", "elbow", "hand", "upper", "fore", "q", "force", "com"}, {"x", "sin"}},
         Case{"constrain arm.h|", {"hand"}, {"elbow", "q", "height"}},
-        Case{"constrain 2*(x + arm.elbow.|", {"force"}, {"x", "hand"}},
+        Case{"constrain 2*(x + arm.elbow.|", {"force"}, {"x", "hand"}}, Case{"let p = x.|", {}, {"x", "force"}},
         Case{"let p = arm.hand.|", {"x", "y", "z"}, {"force", "hand"}},
         Case{"window [0, 1] of |", {"x", "arm", "arm.elbow"}, {"k", "g", "height", "sin"}},
         Case{"shake amplitude 0.1 of x, |", {"arm"}, {"g"}}, Case{"enable |", {"goal", "work"}, {"x", "g"}},
