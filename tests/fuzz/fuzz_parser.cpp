@@ -1,4 +1,5 @@
-// Arbitrary bytes as a scene: compiling ends, without a fault, with a problem or with diagnostics.
+// Arbitrary bytes as a scene: compiling ends, without a fault, with a problem or with diagnostics; what has been
+// formatted is formatted; completion bears every text.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -6,6 +7,8 @@
 #include "common/assert.h"
 #include "common/program.h"
 #include "symbolic/compile.h"
+#include "symbolic/complete.h"
+#include "symbolic/format.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -20,5 +23,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (result.problem) {
     for (const auto& [key, program] : result.problem->programs) SPACETIME_ASSERT(!validate(program));
   }
+  if (const auto formatted = spacetime::symbolic::format(text).text)
+    SPACETIME_ASSERT(spacetime::symbolic::format(*formatted).text == formatted);
+  spacetime::symbolic::complete(text, 1 << 20, 1 << 20);
   return 0;
 }
