@@ -241,6 +241,16 @@ void add_first_derivatives(const Transcription& t, const Layout& layout, const B
   });
 }
 
+// Zeros, and the ones of the functionals' rows z - F.
+void start_first_derivatives(const Transcription& t, const Layout& layout, Linearisation& result) {
+  result.gradient.setZero();
+  result.jacobian.set_zero();
+  for (int k = 0; k < t.functionals(); ++k) {
+    const int row = t.functional_row[k];
+    if (row >= 0) result.jacobian.add(layout.of_row[row], layout.of_unknown[t.first_functional() + k], 1);
+  }
+}
+
 // The objective's Hessian does not depend on multipliers of rows; everything else's does.
 bool needs_multipliers(const Batch& batch) {
   return !batch.summed() || std::ranges::any_of(batch.targets, [](const Target& target) {
@@ -292,18 +302,21 @@ Linearisation start_linearisation(const Layout& layout) {
 
 void linearise(const Transcription& t, const Layout& layout, std::span<const double> x, Workspace& workspace,
                Linearisation& result, std::span<const char> active) {
-  result.gradient.setZero();
-  result.jacobian.set_zero();
+  start_first_derivatives(t, layout, result);
   result.hessian.set_zero();
-  for (int k = 0; k < t.functionals(); ++k) {
-    const int row = t.functional_row[k];
-    if (row >= 0) result.jacobian.add(layout.of_row[row], layout.of_unknown[t.first_functional() + k], 1);
-  }
   for (const Batch& batch : t.batches) {
     const bool waits = needs_multipliers(batch);
     const Outputs out = run(t, batch, waits ? Depth::jacobian : Depth::hessian, x, nullptr, {}, workspace);
     add_first_derivatives(t, layout, batch, out, active, result);
     if (!waits) add_hessian(t, layout, batch, out, result.hessian);
+  }
+}
+
+void differentiate(const Transcription& t, const Layout& layout, std::span<const double> x, Workspace& workspace,
+                   Linearisation& result) {
+  start_first_derivatives(t, layout, result);
+  for (const Batch& batch : t.batches) {
+    add_first_derivatives(t, layout, batch, run(t, batch, Depth::jacobian, x, nullptr, {}, workspace), {}, result);
   }
 }
 

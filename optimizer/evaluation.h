@@ -49,6 +49,10 @@ Linearisation start_linearisation(const Layout& layout);
 void linearise(const Transcription& transcription, const Layout& layout, std::span<const double> x,
                Workspace& workspace, Linearisation& result, std::span<const char> active = {});
 
+// Gradient and Jacobian alone, all rows being active; the Hessian is left as it was.
+void differentiate(const Transcription& transcription, const Layout& layout, std::span<const double> x,
+                   Workspace& workspace, Linearisation& result);
+
 // Adds the rows' part of the Hessian.  `values` must be those at x; `multipliers` has one number a row (those of soft
 // rows are not read: they are w r).
 void add_row_curvature(const Transcription& transcription, const Layout& layout, std::span<const double> x,

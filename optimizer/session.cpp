@@ -7,7 +7,9 @@
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
+#include "optimizer/bfgs.h"
 #include "optimizer/sketch.h"
+#include "optimizer/sqp92.h"
 #include "optimizer/window.h"
 
 namespace spacetime::optimizer {
@@ -71,10 +73,16 @@ void Session::perform(const Action& action, const Watch& watch) {
 }
 
 void Session::act(const Solve& solve, const Watch& watch) {
-  if (solve.method == Solve::Method::sqp92) not_built("the method 'sqp92'");
-  if (solve.method == Solve::Method::bfgs) not_built("the method 'bfgs'");
   if (solve.starts > 1) not_built("'starts'");
-  iterate(solve.iterations.value_or(default_iterations), solve.tolerance, watch);
+  const int limit = solve.iterations.value_or(default_iterations);
+  switch (solve.method) {
+    case Solve::Method::newton:
+      return iterate(limit, solve.tolerance, watch);
+    case Solve::Method::sqp92:
+      return iterate_by([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit, solve.tolerance, watch);
+    case Solve::Method::bfgs:
+      return iterate_by([&] { return Bfgs(now_->t(), now_->layout); }, limit, solve.tolerance, watch);
+  }
 }
 
 void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
@@ -159,24 +167,68 @@ void Session::restart(std::vector<double> x) {
   state_.iterations = iterations;
   state_.seconds.evaluate += seconds.evaluate;
   state_.seconds.factor += seconds.factor;
-  judged_ = false;
+  judged_ = foreign_ = false;
 }
 
 void Session::iterate(int limit, double tolerance, const Watch& watch) {
+  if (foreign_) restart(unknowns());
+  iterate(limit, tolerance, watch, [&](bool) -> std::optional<Outcome> {
+    const StepResult result = now_->newton.step(state_, tolerance);
+    if (result == StepResult::stepped) return std::nullopt;
+    return outcome_of(result, now_->t(), state_, tolerance);
+  });
+}
+
+// By another method, which `make` makes: for the first step, and again for what edits have changed.
+template <class Make>
+void Session::iterate_by(const Make& make, int limit, double tolerance, const Watch& watch) {
+  auto method = std::make_unique<decltype(make())>(make());  // refused here, nothing is lost
+  auto state = method->start(state_.x);
+  Seconds before = state_.seconds;
+  iterate(limit, tolerance, watch, [&](bool afresh) -> std::optional<Outcome> {
+    if (afresh) {
+      try {
+        method = std::make_unique<decltype(make())>(make());
+      } catch (const InputError& error) {
+        return Outcome{Status::stopped, fmt::format("Stopped after {}: {}.", count(), error.what())};
+      }
+      state = method->start(state_.x);
+      before = state_.seconds;
+    }
+    const StepResult result = method->step(state, tolerance);
+    state_.x = state.x;
+    state_.values = state.values;
+    state_.measures = state.measures;
+    state_.condition = StepResult::stepped;
+    state_.step = state.step;
+    state_.shift_used = state.shift;
+    state_.seconds = {0, before.evaluate + state.seconds.evaluate, before.factor + state.seconds.factor};
+    foreign_ = true;
+    if (result == StepResult::exhausted) {
+      const std::string worst = worst_of(violations(now_->t(), state.x, state.values));
+      return Outcome{Status::stopped, method->ending(state) + "; " + worst + "."};
+    }
+    if (result != StepResult::stepped) return outcome_of(result, now_->t(), state_, tolerance);
+    ++state_.iterations;
+    return std::nullopt;
+  });
+}
+
+void Session::iterate(int limit, double tolerance, const Watch& watch, const Step& step) {
   judged_ = true;
   for (int k = 0;; ++k) {
     const bool last = k == limit;
     if (!last && watch.go_on && !watch.go_on()) {
       return stop("Interrupted after " + count() + ". " + standing());
     }
+    const bool afresh = !judged_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
     if (last && !reached(tolerance)) {
       outcome_ = {Status::stopped, "Stopped after " + count() + ", as many as were allowed. " + standing()};
       return;
     }
-    const StepResult result = now_->newton.step(state_, tolerance);
-    if (result != StepResult::stepped) {
-      outcome_ = outcome_of(result, now_->t(), state_, tolerance);
+    if (auto outcome = step(afresh)) {
+      outcome_ = std::move(*outcome);
       outcome_.message += standing_elsewhere(tolerance);
       return;
     }

@@ -95,7 +95,12 @@ class Session {
   template <class Other>
   void act(const Other& other, const Watch& watch);
 
-  void iterate(int limit, double tolerance, const Watch& watch);
+  // One step, or what it came to where there is none; `afresh` where the motion has been edited since the last.
+  using Step = std::function<std::optional<Outcome>(bool afresh)>;
+  void iterate(int limit, double tolerance, const Watch& watch, const Step& step);
+  void iterate(int limit, double tolerance, const Watch& watch);  // by Newton
+  template <class Make>
+  void iterate_by(const Make& make, int limit, double tolerance, const Watch& watch);
   void restart(std::vector<double> x);
   bool reached(double tolerance) const;
   std::string count() const;
@@ -115,7 +120,8 @@ class Session {
   double objective_outside_ = 0;  // the part of the objective that the window leaves as it is
   NewtonState state_;
   Outcome outcome_;
-  bool judged_ = false;  // the outcome speaks of the present point
+  bool judged_ = false;   // the outcome speaks of the present point
+  bool foreign_ = false;  // another method than Newton has led to it: what only Newton wants of state_ is older
 };
 
 }  // namespace spacetime::optimizer

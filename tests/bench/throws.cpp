@@ -31,16 +31,16 @@ Throw throw_named(const std::string& name) {
     result.starts.push_back({start, coefficients[key].get<std::vector<double>>()});
   }
 
-  const std::string once = "keyframe 1: arm.q = (0.8, 0.4, 0.2)\n";  // what a sketch replaces
-  const auto at = text.find(once);
-  if (at == std::string::npos) throw InputError(scenes.at(name) + " lacks the keyframe that sketches replace");
+  // A sketch replaces the line of the arm's own key.
+  const auto key = text.find("arm.q = (0.8, 0.4, 0.2)"), at = text.rfind('\n', key) + 1, end = text.find('\n', key) + 1;
+  if (key == std::string::npos) throw InputError(scenes.at(name) + " lacks the keyframe that sketches replace");
   const auto sketches = nlohmann::json::parse(file_text("tests/reference/p94r_results.json"))["map"]["runs"];
   for (const auto& sketch : sketches) {
     std::string keys;
     for (const auto& [time, q] : sketch["keys"].items()) {
       keys += "keyframe " + time + ": arm.q = (" + q[0].dump() + ", " + q[1].dump() + ", " + q[2].dump() + ")\n";
     }
-    const Problem sketched = symbolic::compile(std::string(text).replace(at, once.size(), keys)).problem.value();
+    const Problem sketched = symbolic::compile(std::string(text).replace(at, end - at, keys)).problem.value();
     result.starts.push_back(
         {"sketch " + sketch["k"].dump(), optimizer::sketch(sketched, optimizer::evaluate_constants(sketched))});
   }
