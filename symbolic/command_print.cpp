@@ -10,13 +10,15 @@
 #include <optional>
 
 #include "common/files.h"
+#include "protocol/writer.h"
 #include "symbolic/query.h"
 
 namespace spacetime::symbolic {
 namespace {
 
 struct Options {
-  std::string file, what, by;
+  std::string file, what, by, as = "text";
+  bool json = false;
 };
 
 // Of the terminal the output goes to.
@@ -79,8 +81,55 @@ int run_print(const Options& options) {
   }
   const Answer answer = query(*scene, options.what, options.by);
   if (!answer) return print_refusal(answer), 1;
-  std::cout << print_text(read(scene->model, answer.values), names_for(*scene, answer), columns());
+  const PrintedNames names = names_for(*scene, answer);
+  if (options.as == "dot")
+    std::cout << print_dot(scene->model, answer.values, options.what);
+  else if (options.as == "latex")
+    std::cout << print_latex(read(scene->model, answer.values), answer.name, names.part == "s" ? "s" : "\\sigma");
+  else
+    std::cout << print_text(read(scene->model, answer.values), names, columns());
   return 0;
+}
+
+void print_sizes(Understood& scene, const std::vector<Printable>& all) {
+  std::vector<std::vector<std::string>> rows{
+      {"name", "tree nodes", "shared", "operations: values", "with Jacobian", "with Hessian"}};
+  for (const Printable& printable : all) {
+    const Sizes sizes = sizes_of(scene, printable.values);
+    rows.push_back({printable.name, text_of_count(sizes.nodes.tree), std::to_string(sizes.nodes.shared),
+                    std::to_string(sizes.values), std::to_string(sizes.jacobian), std::to_string(sizes.hessian)});
+  }
+  print_table(rows, 1);
+}
+
+// {"format": "spacetime-sizes/1", "file": "throw.scene",
+//  "expressions": [{"name": "arm.force", "tree_nodes": 469, "shared_nodes": 80,
+//                   "operations": {"values": 49, "jacobian": 107, "hessian": 193}}]}
+std::string json_of_sizes(Understood& scene, const std::vector<Printable>& all, const std::string& file) {
+  Writer to;
+  const auto one = [&](const Printable& printable) {
+    const Sizes sizes = sizes_of(scene, printable.values);
+    to.object([&] {
+      to.member("name", printable.name);
+      to.member("tree_nodes", sizes.nodes.tree);
+      to.member("shared_nodes", static_cast<int>(sizes.nodes.shared));
+      to.key("operations");
+      to.object([&] {
+        to.member("values", static_cast<int>(sizes.values));
+        to.member("jacobian", static_cast<int>(sizes.jacobian));
+        to.member("hessian", static_cast<int>(sizes.hessian));
+      });
+    });
+  };
+  to.object(
+      [&] {
+        to.member("format", "spacetime-sizes/1");
+        to.member("file", file);
+        to.key("expressions");
+        to.list_of(all, one, Set::in_lines);
+      },
+      Set::in_lines);
+  return to.take();
 }
 
 int run_count(const Options& options) {
@@ -94,14 +143,10 @@ int run_count(const Options& options) {
     if (!answer) return print_refusal(answer), 1;
     all.push_back({options.what, answer.what, std::move(answer.values)});
   }
-  std::vector<std::vector<std::string>> rows{
-      {"name", "tree nodes", "shared", "operations: values", "with Jacobian", "with Hessian"}};
-  for (const Printable& printable : all) {
-    const Sizes sizes = sizes_of(*scene, printable.values);
-    rows.push_back({printable.name, text_of_count(sizes.nodes.tree), std::to_string(sizes.nodes.shared),
-                    std::to_string(sizes.values), std::to_string(sizes.jacobian), std::to_string(sizes.hessian)});
-  }
-  print_table(rows, 1);
+  if (options.json)
+    std::cout << json_of_sizes(*scene, all, shown(options.file));
+  else
+    print_sizes(*scene, all);
   return 0;
 }
 
@@ -115,6 +160,14 @@ Command add_print(CLI::App& app) {
                       "A name of the scene, such as arm.force, or any expression; without it: what can be printed");
   command->add_option("--by", options->by,
                       "Print the derivative by this degree of freedom (or \"arm.elbow'\"), constant or parameter");
+  command->add_option("--as", options->as, "text (of the scene language, the default), latex or dot (for Graphviz)")
+      ->check(CLI::IsMember({"text", "latex", "dot"}));
+  command->footer(
+      "Examples:\n"
+      "  spacetime-symbolic print throw.scene                             what can be printed\n"
+      "  spacetime-symbolic print throw.scene arm.force --by arm.elbow    a derivative\n"
+      "  spacetime-symbolic print throw.scene \"arm.hand.x'\"              any expression\n"
+      "  spacetime-symbolic print throw.scene energy --as latex           an objective's integrand");
   return {command, [options] { return run_print(*options); }};
 }
 
@@ -124,6 +177,7 @@ Command add_count(CLI::App& app) {
   command->add_option("FILE", options->file, "The scene, or - for standard input")->required();
   command->add_option("NAME", options->what, "As for print; without it: everything");
   command->add_option("--by", options->by, "Count the derivative, as for print");
+  command->add_flag("--json", options->json, "Write the figures as a JSON document");
   return {command, [options] { return run_count(*options); }};
 }
 

@@ -22,10 +22,11 @@ inline constexpr std::size_t usual_width = 100;  // columns
 // components.  Behind the scene they came from they declare what they show, node for node.
 std::string print_text(const Reading& reading, const PrintedNames& names, std::size_t width = usual_width);
 
-// An `aligned` environment of amsmath in display mode.  `title` stands on the left of the last line and is LaTeX.
-std::string print_latex(const Reading& reading, const std::string& title, const std::string& part = "s");
+// An `aligned` environment of amsmath in display mode, ready for a document.  `part` is the letter of the parts.
+std::string print_latex(const Reading& reading, const std::string& name, const std::string& part = "s");
 
-// A digraph for Graphviz of the nodes that the values are made of, with their operations, operands from left to right.
-std::string print_dot(const Model& model, std::span<const Expr> values, const std::string& title);
+// A digraph for Graphviz of the nodes that the values are made of, with their operations as they are shared; operands
+// from left to right.
+std::string print_dot(Model& model, std::span<const Expr> values, const std::string& title);
 
 }  // namespace spacetime::symbolic

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "symbolic/print.h"
@@ -28,6 +29,15 @@ struct Text {
   std::string text;
   Level level = Level::atom;
 };
+
+// 2/3 rather than 0.6666666666666666, where that is the same number.
+Text number(double value) {
+  if (value == std::numbers::e) return {"e", Level::atom};
+  const Fraction fraction = fraction_of(std::fabs(value));
+  if (fraction.below != 1 && fraction.above / fraction.below == std::fabs(value))
+    return {(value < 0 ? "-" : "") + written(fraction.above) + "/" + written(fraction.below), Level::product};
+  return {written(value), value < 0 ? Level::product : Level::atom};
+}
 
 constexpr double largest_divisor = 360, largest_multiple = 99;  // of pi, as people write angles
 
@@ -85,7 +95,7 @@ std::string TextPrinter::operand(const Reading::Item& item, std::size_t i, Level
 Text TextPrinter::made(const Reading::Item& item) const {
   switch (item.kind) {
     case Kind::number:
-      return {written(item.number), item.number < 0 ? Level::product : Level::atom};
+      return number(item.number);
     case Kind::pi:
       return pi(item.number);
     case Kind::input:

@@ -13,6 +13,7 @@ namespace {
 using Kind = Reading::Kind;
 using Operand = Reading::Operand;
 
+constexpr char key_end = '~';
 constexpr std::size_t longest_key = 48;  // enough to tell names apart; fingerprints settle the rest
 
 std::vector<Operand> operands_of(const std::vector<std::size_t>& items) {
@@ -69,6 +70,27 @@ std::string ReadingItems::declared(const Reading::Item& item) const {
          static_cast<char>('0' + static_cast<int>(item.number));
 }
 
+// To sort by: rank and name, then the operands'; numbers do not count in products.  Powers stand by their bases, the
+// higher first.
+std::string ReadingItems::key(const Reading::Item& item) const {
+  if (item.kind == Kind::power) {
+    std::string out = notes_[item.operands[0].item].key;
+    const double exponent = items_[item.operands[1].item].number;
+    out.back() = static_cast<char>(key_end - std::clamp(exponent, 1.0, 64.0));
+    return out;
+  }
+  const bool is_product = item.kind == Kind::product;
+  std::string out;
+  if (!is_product) out = rank(item) + (item.kind == Kind::input ? declared(item) : item.name);
+  for (std::size_t i = 0; i < item.operands.size() && out.size() < longest_key; ++i) {
+    const std::size_t operand = item.operands[i].item;
+    if (!is_product || items_[operand].kind != Kind::number) out += notes_[operand].key;
+  }
+  out.resize(std::min(out.size(), longest_key));
+  if (!is_product || out.empty()) out += key_end;
+  return out;
+}
+
 ReadingItems::Note ReadingItems::note(const Reading::Item& item) const {
   Note out;
   if (item.kind == Kind::input && item.input == InputKind::dof) out.degree = 1 + static_cast<int>(item.number);
@@ -82,15 +104,7 @@ ReadingItems::Note ReadingItems::note(const Reading::Item& item) const {
     out.length += part.length + 2;
     out.relations += part.relations;
   }
-  const bool is_power = item.kind == Kind::power;
-  if (is_power) {
-    out.key = notes_[item.operands[0].item].key;
-  } else {
-    out.key = rank(item) + (item.kind == Kind::input ? declared(item) : item.name);
-  }
-  for (std::size_t i = is_power ? 1 : 0; i < item.operands.size() && out.key.size() < longest_key; ++i)
-    out.key += notes_[item.operands[i].item].key;
-  out.key.resize(std::min(out.key.size(), longest_key));
+  out.key = key(item);
   return out;
 }
 
@@ -208,7 +222,18 @@ std::size_t ReadingItems::magnitude(Term term) {
 
 std::size_t ReadingItems::item(const Term& term) {
   const std::size_t out = magnitude(term);
-  return term.number < 0 ? negative(out) : out;
+  return term.number < 0 ? turned(out) : out;
+}
+
+// -(a - b) as b - a, where the graph makes the same of it.
+std::size_t ReadingItems::turned(std::size_t item) {
+  std::vector<Operand> terms = items_[item].operands;
+  const auto first = std::ranges::find(terms, true, &Operand::opposite);
+  if (items_[item].kind != Kind::sum || first == terms.end()) return negative(item);
+  for (Operand& term : terms) term.opposite = !term.opposite;
+  std::rotate(terms.begin(), first, first + 1);
+  const std::size_t out = sum(std::move(terms));
+  return items_[out].expr == model_.graph.negate(items_[item].expr) ? out : negative(item);
 }
 
 }  // namespace spacetime::symbolic

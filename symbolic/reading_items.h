@@ -58,7 +58,9 @@ class ReadingItems {
   };
 
   std::size_t enter(Reading::Item item);
+  std::size_t turned(std::size_t item);
   Note note(const Reading::Item& item) const;
+  std::string key(const Reading::Item& item) const;
   std::string declared(const Reading::Item& item) const;
   std::vector<std::size_t> with_powers(std::vector<std::size_t> factors);
 

@@ -60,9 +60,9 @@ void choose_parts(Reading& reading) {
     }
     if (is_leaf(item.kind) || is_condition(item.kind)) continue;
     const bool is_root = std::ranges::find(reading.roots, i) != reading.roots.end();
-    const bool of_parts = item.kind == Kind::sum && std::ranges::any_of(item.operands, [&](const auto& operand) {
-                            return reading.is_part(operand.item);
-                          });
+    const bool of_parts =
+        (item.kind == Kind::sum || item.kind == Kind::product) &&
+        std::ranges::any_of(item.operands, [&](const auto& operand) { return reading.is_part(operand.item); });
     const bool shared = uses[i] > 1 && (length[i] > short_enough || of_parts);
     const bool large = !is_root && (length[i] > long_enough || depth[i] > deepest_reading);
     if (!shared && !large) continue;
