@@ -14,9 +14,11 @@
 #include "common/diagnostic.h"
 #include "common/files.h"
 #include "optimizer/run.h"
+#include "optimizer/server.h"
 #include "optimizer/summary.h"
 #include "protocol/motion_json.h"
 #include "protocol/problem_json.h"
+#include "protocol/serve_command.h"
 
 namespace {
 
@@ -120,9 +122,16 @@ int main(int argc, char** argv) {
   command->add_flag("--record", arguments.record, "Also write the record of all iterations");
   command->add_flag("-q,--quiet", arguments.quiet, "No table of iterations and no summary on standard error");
 
+  protocol::ServerOptions server;
+  CLI::App* serving = protocol::add_serve_command(app, server);
+
   try {
     app.parse(argc, argv);
     if (command->parsed()) return solve(arguments);
+    if (serving->parsed()) {
+      protocol::serve(optimizer::service(), server);
+      return 0;
+    }
     std::cerr << app.help();
     return bad_input;
   } catch (const CLI::ParseError& error) {

@@ -15,9 +15,6 @@
 namespace spacetime::optimizer {
 namespace {
 
-// Without a limit of its own a solve ends after so many iterations: ten times what the hardest examples take.
-constexpr int default_iterations = 1000;
-
 [[noreturn]] void not_built(std::string_view what) { throw InputError(fmt::format("{} is not built yet", what)); }
 
 // Where a problem starts: its keyframes and declared values, or a motion as far as it goes.
@@ -296,6 +293,15 @@ std::vector<double> Session::unknowns() const {
   return x;
 }
 
+std::vector<std::pair<std::string, double>> Session::parameters() const {
+  const auto x = unknowns();
+  std::vector<std::pair<std::string, double>> result;
+  for (std::size_t k = 0; k < now_->problem.parameters.size(); ++k) {
+    result.emplace_back(now_->problem.parameters[k].name, x[now_->whole.first_parameter() + k]);
+  }
+  return result;
+}
+
 // The unknowns with functionals at their true values, so that each relation is measured in its own units.
 std::vector<double> Session::settled() const {
   Workspace workspace;
@@ -323,9 +329,7 @@ Motion Session::motion(double tolerance) {
   const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
   measure(t, x, evaluate(t, x, workspace, active), motion);
   motion.dofs = trajectories();
-  for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
-    motion.parameters.emplace_back(problem.parameters[k].name, x[t.first_parameter() + k]);
-  }
+  motion.parameters = parameters();
   for (const Constant& constant : problem.constants) {
     motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
   }
@@ -339,9 +343,7 @@ Samples Session::samples(std::span<const double> times) const {
   const auto x = settled();
   Motion motion;  // what samples are taken of
   motion.dofs = trajectories();
-  for (std::size_t k = 0; k < now_->problem.parameters.size(); ++k) {
-    motion.parameters.emplace_back(now_->problem.parameters[k].name, x[t.first_parameter() + k]);
-  }
+  motion.parameters = parameters();
   for (const Constant& constant : now_->problem.constants) {
     motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
   }

@@ -26,6 +26,9 @@ struct Watch {
   std::function<bool()> go_on;
 };
 
+// Without a limit of its own a solve ends after so many iterations: ten times what the hardest examples take.
+inline constexpr int default_iterations = 1000;
+
 // Whether an action only changes the problem or the motion, so that it can be performed between two iterations.
 bool is_edit(const Action& action);
 
@@ -57,6 +60,7 @@ class Session {
   // The present point.
   IterationRecord record() const;
   std::vector<Trajectory> trajectories() const;
+  std::vector<std::pair<std::string, double>> parameters() const;
   int iterations() const { return state_.iterations; }
 
   // The problem as edited.

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +16,13 @@ class Check {
  public:
   explicit Check(const Declared& declared)
       : declared_(declared), problem_(declared.problem()), constraints_(declared.constraints()) {}
+
+  // One action by itself, after anything may have been refined; all statements have been declared.
+  void one(const Action& asked) {
+    now_ = std::numeric_limits<std::size_t>::max();
+    refined_ = true;
+    std::visit([&](const auto& which) { action(which, {}); }, asked);
+  }
 
   void all() {
     for (now_ = 0; now_ < problem_.actions.size(); ++now_) {
@@ -220,5 +228,14 @@ class Check {
 }  // namespace
 
 void check_actions(const Declared& declared) { Check(declared).all(); }
+
+std::optional<Fault> validate(const Action& action, const Problem& problem) {
+  try {
+    Check(Declared(problem)).one(action);
+  } catch (const Fault& fault) {
+    return fault;
+  }
+  return std::nullopt;
+}
 
 }  // namespace spacetime

@@ -26,6 +26,9 @@ struct Fault {
 // the rest is for who evaluates them, as is what only a run tells: how many coefficients there are after a refinement.
 std::optional<Fault> validate(const Problem& problem);
 
+// Nothing where the action can be performed on the problem, all of whose statements count; paths are the action's own.
+std::optional<Fault> validate(const Action& action, const Problem& problem);
+
 // Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,
 // every number is finite (but for measures of a failed motion), names are unique, and samples are as long as their
 // times.

@@ -1,7 +1,5 @@
 #include "protocol/diagnostics_json.h"
 
-#include "protocol/writer.h"
-
 namespace spacetime {
 namespace {
 
@@ -14,26 +12,30 @@ void write_members(Writer& to, const Span& span, std::string_view message) {
 
 }  // namespace
 
+void write_diagnostics(Writer& to, std::span<const Diagnostic> diagnostics) {
+  to.key("diagnostics");
+  to.list_of(
+      diagnostics,
+      [&](const Diagnostic& diagnostic) {
+        to.object([&] {
+          write_members(to, diagnostic.span, diagnostic.message);
+          if (diagnostic.notes.empty()) return;
+          to.key("notes");
+          to.list_of(diagnostic.notes, [&](const Diagnostic::Note& note) {
+            to.object([&] { write_members(to, note.span, note.message); });
+          });
+        });
+      },
+      Set::in_lines);
+}
+
 std::string write_diagnostics(std::span<const Diagnostic> diagnostics, std::string_view file) {
   Writer to;
   to.object(
       [&] {
         to.member("format", "spacetime-diagnostics/1");
         to.member("file", file);
-        to.key("diagnostics");
-        to.list_of(
-            diagnostics,
-            [&](const Diagnostic& diagnostic) {
-              to.object([&] {
-                write_members(to, diagnostic.span, diagnostic.message);
-                if (diagnostic.notes.empty()) return;
-                to.key("notes");
-                to.list_of(diagnostic.notes, [&](const Diagnostic::Note& note) {
-                  to.object([&] { write_members(to, note.span, note.message); });
-                });
-              });
-            },
-            Set::in_lines);
+        write_diagnostics(to, diagnostics);
       },
       Set::in_lines);
   return to.take();

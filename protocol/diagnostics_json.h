@@ -8,8 +8,12 @@
 #include <string_view>
 
 #include "common/diagnostic.h"
+#include "protocol/writer.h"
 
 namespace spacetime {
+
+// The member "diagnostics" alone, as a message has it.
+void write_diagnostics(Writer& to, std::span<const Diagnostic> diagnostics);
 
 std::string write_diagnostics(std::span<const Diagnostic> diagnostics, std::string_view file);
 

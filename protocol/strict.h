@@ -26,6 +26,7 @@ class Node {
   [[noreturn]] void expected(std::string_view what) const;  // "expected <what>, found <the value>"
   [[noreturn]] void refuse(std::string_view message) const;
 
+  const Json& json() const { return *json_; }
   bool is_number() const { return json_->is_number(); }
   bool is_object() const { return json_->is_object(); }
   bool is_null() const { return json_->is_null(); }

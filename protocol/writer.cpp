@@ -98,6 +98,11 @@ void Writer::null() {
   text_ += "null";
 }
 
+void Writer::json(std::string_view text) {
+  separate();
+  text_ += text;
+}
+
 void Writer::numbers(std::span<const double> values) {
   list_of(values, [&](double value) { number(value); });
 }
@@ -108,7 +113,7 @@ void Writer::integers(std::span<const std::int32_t> values) {
 
 std::string Writer::take() {
   SPACETIME_ASSERT(levels_.empty() && !after_key_);
-  text_ += '\n';
+  if (broken_) text_ += '\n';
   return std::move(text_);
 }
 

@@ -50,6 +50,7 @@ class Writer {
   void string(std::string_view value);
   void boolean(bool value);
   void null();
+  void json(std::string_view text);  // a value that is already written
   void numbers(std::span<const double> values);
   void integers(std::span<const std::int32_t> values);
 
@@ -68,7 +69,7 @@ class Writer {
     member(name, names[index]);
   }
 
-  // The text, with a line's end behind it.
+  // The text; with a line's end behind it where it is broken into lines.
   std::string take();
 
  private:

@@ -2,17 +2,20 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/files.h"
 #include "protocol/diagnostics_json.h"
 #include "protocol/problem_json.h"
+#include "protocol/serve_command.h"
 #include "symbolic/command.h"
 #include "symbolic/command_complete.h"
 #include "symbolic/command_format.h"
 #include "symbolic/command_print.h"
 #include "symbolic/compile.h"
+#include "symbolic/server.h"
 
 namespace {
 
@@ -45,6 +48,14 @@ int compile(const Options& options) {
   return 0;
 }
 
+spacetime::symbolic::Command add_serve(CLI::App& app) {
+  const auto options = std::make_shared<spacetime::protocol::ServerOptions>();
+  return {spacetime::protocol::add_serve_command(app, *options), [options] {
+            spacetime::protocol::serve(spacetime::symbolic::service(), *options);
+            return 0;
+          }};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,7 +72,7 @@ int main(int argc, char** argv) {
   command->add_flag("--statistics", options.statistics, "Print sizes and times to standard error");
   using spacetime::symbolic::Command;
   const Command others[]{spacetime::symbolic::add_print(app), spacetime::symbolic::add_count(app),
-                         spacetime::symbolic::add_format(app), spacetime::symbolic::add_complete(app)};
+                         spacetime::symbolic::add_format(app), spacetime::symbolic::add_complete(app), add_serve(app)};
   app.allow_extras();
   try {
     app.parse(argc, argv);

@@ -20,9 +20,7 @@ using Limits = std::numeric_limits<double>;
 std::string text_of(double value) {
   Writer to(false);
   to.number(value);
-  auto text = to.take();
-  text.pop_back();
-  return text;
+  return to.take();
 }
 
 double number_in(const std::string& text) {

@@ -55,7 +55,7 @@ TEST(ProblemDocument, StandsOnOneLineInAMessage) {
   Writer to(false);
   write(to, examples::rich_problem());
   const auto text = to.take();
-  EXPECT_EQ(text.find('\n'), text.size() - 1);
+  EXPECT_EQ(text.find('\n'), text.npos);
   EXPECT_EQ(read_problem(text), examples::rich_problem());
 }
 

@@ -1,0 +1,327 @@
+#include "optimizer/server.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "common/assert.h"
+#include "common/diagnostic.h"
+#include "optimizer/session.h"
+#include "protocol/action_json.h"
+#include "protocol/check.h"
+#include "protocol/motion_json.h"
+#include "protocol/openrpc.h"
+#include "protocol/problem_json.h"
+#include "protocol/program_json.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+using protocol::Call;
+using protocol::Code;
+using protocol::Error;
+using protocol::Turn;
+
+void write_measure(Writer& to, std::string_view name, double value) {
+  to.key(name);
+  if (std::isfinite(value)) {
+    to.number(value);
+  } else {
+    to.null();
+  }
+}
+
+// What one peer has been shown of a run, so that only changes are sent.  Used by whoever writes its messages.
+struct Shown {
+  int run = 0;
+  std::vector<Trajectory> dofs;
+};
+
+// An iterate, copied to be written later, or never.
+struct Snapshot {
+  int run = 0;
+  IterationRecord record;
+  std::vector<Trajectory> dofs;
+  std::vector<std::pair<std::string, double>> parameters;
+
+  std::string text(Shown& shown) const {
+    Writer to(false);
+    to.object([&] {
+      to.member("kind", "iteration");
+      to.member("iteration", record.iteration);
+      write_measure(to, "objective", record.objective);
+      write_measure(to, "violation", record.violation);
+      write_measure(to, "stationarity", record.stationarity);
+      to.member("step", record.step);
+      to.member("shift", record.shift);
+      to.member("seconds", record.seconds);
+      to.key("dofs");
+      const bool same = shown.run == run && shown.dofs.size() == dofs.size();
+      to.list([&] {
+        for (std::size_t i = 0; i < dofs.size(); ++i) {
+          const Trajectory* before = same ? &shown.dofs[i] : nullptr;
+          if (before && *before == dofs[i]) continue;
+          to.object([&] {
+            to.member("name", dofs[i].name);
+            if (!before || before->basis != dofs[i].basis) {
+              to.key("basis");
+              write(to, dofs[i].basis);
+            }
+            to.key("coefficients");
+            to.numbers(dofs[i].coefficients);
+          });
+        }
+      });
+      if (parameters.empty()) return;
+      to.key("parameters");
+      to.object([&] {
+        for (const auto& [name, value] : parameters) to.member(name, value);
+      });
+    });
+    shown = {run, dofs};
+    return to.take();
+  }
+};
+
+// A solve or iterate that goes on.
+struct Run {
+  Solve rest;     // what is left of it, an `iterate` being a solve with that many iterations
+  int since = 0;  // the iteration at which its last edit, or itself, began
+};
+
+PlacedAction placed(const Solve& solve) {
+  // An `iterate` is a solve to the usual tolerance.
+  Solve plain;
+  plain.iterations = solve.iterations;
+  if (solve.iterations && solve == plain) return {Iterate{*solve.iterations}, {}};
+  return {solve, {}};
+}
+
+class Peer {
+ public:
+  explicit Peer(const protocol::Allowance& allowance) : allowance_(allowance) {}
+
+  void load(const Node& params, Writer& result) {
+    params.object({"problem"});
+    Problem problem = checked_problem(params["problem"]);
+    const double unknowns = count(problem);
+    session_ = std::make_unique<Session>(std::move(problem));
+    session_->declare(std::numeric_limits<int>::max());
+    result.member("unknowns", unknowns);
+  }
+
+  void update(const Node& params, Writer& result) {
+    params.object({"problem"});
+    Session& session = present();
+    Problem problem = checked_problem(params["problem"]);
+    session.update(std::move(problem));
+    write_log(result, {});
+  }
+
+  void act(const Node& params, Writer& result, Call& call) {
+    params.object({"action"});
+    Session& session = present();
+    const Node node = params["action"];
+    const PlacedAction asked = action_from(node);
+    if (const auto fault = validate(asked.action, session.problem())) {
+      throw DocumentError("params", "/action" + fault->path, fault->message);
+    }
+    if (is_edit(asked.action)) {
+      session.perform(asked.action);
+      return write_log(result, {asked});
+    }
+    SPACETIME_ASSERT(!run_);
+    run(asked.action, result, call);
+  }
+
+  void get(const Node& params, Writer& result) {
+    params.object({}, {"checkpoint"});
+    Session& session = present();
+    const auto checkpoint = params.find("checkpoint");
+    if (run_) session.stop("Going on: this is iteration " + std::to_string(session.iterations()) + ".");
+    const Motion motion = session.motion();
+    result.key("motion");
+    write(result, motion);
+    if (checkpoint && checkpoint->boolean()) session.set_motion(motion);
+  }
+
+  void set(const Node& params, Writer& result) {
+    params.object({"motion"});
+    Session& session = present();
+    const Motion motion = motion_from(params["motion"]);
+    if (const auto fault = validate(motion)) throw DocumentError("params", "/motion" + fault->path, fault->message);
+    session.set_motion(motion);
+    write_log(result, {});
+  }
+
+  void sample(const Node& params, Writer& result) {
+    params.object({"times"}, {"expressions"});
+    Session& session = present();
+    const auto times = params["times"].numbers();
+    const Problem& problem = session.problem();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (times[i] < problem.start || times[i] > problem.end) params["times"][i].refuse("outside the problem's time");
+    }
+    std::size_t each = 0;
+    for (const Plot& plot : problem.plots) each += plot.outputs.size();
+    each += 12 * problem.bodies.size();
+    const double numbers = static_cast<double>(times.size()) * static_cast<double>(each);
+    if (numbers > allowance_.samples) throw beyond("samples", allowance_, numbers);
+    std::optional<std::vector<std::string>> wanted;
+    if (const auto names = params.find("expressions")) {
+      wanted = names->each([&](const Node& name) {
+        const auto is_it = [&](const auto& thing) { return thing.name == name.string(); };
+        if (std::ranges::none_of(problem.plots, is_it) && std::ranges::none_of(problem.bodies, is_it)) {
+          name.refuse("there is no expression or body of that name");
+        }
+        return name.string();
+      });
+    }
+    const Samples samples = session.samples(times);
+    const auto write_rows = [&](std::string_view member, const auto& tables) {
+      result.key(member);
+      result.object([&] {
+        for (const auto& [name, rows] : tables) {
+          if (wanted && std::ranges::find(*wanted, name) == wanted->end()) continue;
+          result.key(name);
+          result.list_of(rows, [&](const std::vector<double>& row) {
+            result.list_of(row, [&](double value) { std::isfinite(value) ? result.number(value) : result.null(); });
+          });
+        }
+      });
+    };
+    result.key("times");
+    result.numbers(times);
+    write_rows("values", samples.values);
+    write_rows("poses", samples.poses);
+  }
+
+ private:
+  Session& present() const {
+    if (!session_) throw Error(Code::no_problem, "there is no problem yet: send \"problem/load\" first");
+    return *session_;
+  }
+
+  Problem checked_problem(const Node& node) const {
+    Problem problem = problem_from(node);
+    double operations = 0;
+    for (const auto& [name, program] : problem.programs) operations += static_cast<double>(program.op.size());
+    if (operations > allowance_.operations) throw beyond("operations", allowance_, operations);
+    if (const double unknowns = count(problem); unknowns > allowance_.unknowns) {
+      throw beyond("unknowns", allowance_, unknowns);
+    }
+    if (const auto fault = validate(problem)) {
+      throw DocumentError("params", "/problem" + fault->path, fault->message);
+    }
+    return problem;
+  }
+
+  static double count(const Problem& problem) {
+    double unknowns = static_cast<double>(problem.parameters.size());
+    for (const Dof& dof : problem.dofs) unknowns += dof.basis.size();
+    return unknowns;
+  }
+
+  // What must be performed to come to the same bits: the iterations of a run that goes on up to here, then `done`.
+  // Messages other than actions follow what they write here.
+  void write_log(Writer& result, std::vector<PlacedAction> done) {
+    const int iteration = session_->iterations();
+    result.member("iteration", iteration);
+    result.key("log");
+    result.list([&] {
+      if (run_ && iteration > run_->since) {
+        Solve part = run_->rest;
+        part.iterations = iteration - run_->since;
+        write(result, placed(part));
+        run_->rest.iterations = run_->rest.iterations.value_or(default_iterations) - *part.iterations;
+        run_->since = iteration;
+      }
+      for (const PlacedAction& action : done) write(result, action);
+    });
+  }
+
+  void run(const Action& action, Writer& result, Call& call) {
+    Session& session = *session_;
+    const int number = ++runs_;
+    bool stopped = false;
+    const auto show = [&](const IterationRecord& record) {
+      call.progress([iterate = Snapshot{number, record, session.trajectories(), session.parameters()}, shown = shown_] {
+        return iterate.text(*shown);
+      });
+    };
+    Watch watch;
+    watch.progress = show;
+    watch.go_on = [&] {
+      stopped = !call.go_on();
+      return !stopped;
+    };
+    Run run;
+    if (const auto* solve = std::get_if<Solve>(&action)) run.rest = *solve;
+    if (const auto* iterate = std::get_if<Iterate>(&action)) run.rest.iterations = iterate->iterations;
+    run.since = session.iterations();
+    run_ = run;
+    struct Over {
+      std::optional<Run>& run;
+      ~Over() { run.reset(); }
+    } over{run_};
+    session.perform(action, watch);
+
+    const Outcome outcome = session.outcome();
+    result.member("status", name_of(outcome.status));
+    result.member("message", outcome.message);
+    const IterationRecord record = session.record();
+    write_measure(result, "objective", record.objective);
+    write_measure(result, "violation", record.violation);
+    result.member("seconds", record.seconds);
+    // A run that was stopped amounts to its iterations; one that ended by itself to what it was asked, less what had
+    // been done before its last edit.
+    std::vector<PlacedAction> rest;
+    if (!stopped) {
+      rest.push_back(placed(run_->rest));
+      run_->since = session.iterations();
+    }
+    write_log(result, std::move(rest));
+  }
+
+  const protocol::Allowance& allowance_;
+  std::unique_ptr<Session> session_;
+  std::optional<Run> run_;
+  int runs_ = 0;
+  std::shared_ptr<Shown> shown_ = std::make_shared<Shown>();
+};
+
+Turn turn_of_action(const Json& params) {
+  if (!params.contains("action") || !params["action"].is_object() || !params["action"].contains("action")) {
+    return Turn::between;
+  }
+  const Json& word = params["action"]["action"];
+  return word == "solve" || word == "iterate" ? Turn::waits : Turn::between;
+}
+
+Turn turn_of_get(const Json& params) {
+  return params.contains("checkpoint") && params["checkpoint"] == true ? Turn::waits : Turn::between;
+}
+
+Turn between(const Json&) { return Turn::between; }
+Turn ends(const Json&) { return Turn::ends; }
+
+std::vector<protocol::Method> open(const protocol::Allowance& allowance) {
+  const auto peer = std::make_shared<Peer>(allowance);
+  return {
+      {"problem/load", [peer](const Node& p, Writer& r, Call&) { peer->load(p, r); }, ends, true},
+      {"problem/update", [peer](const Node& p, Writer& r, Call&) { peer->update(p, r); }, between, true},
+      {"action/do", [peer](const Node& p, Writer& r, Call& call) { peer->act(p, r, call); }, turn_of_action},
+      {"motion/get", [peer](const Node& p, Writer& r, Call&) { peer->get(p, r); }, turn_of_get},
+      {"motion/set", [peer](const Node& p, Writer& r, Call&) { peer->set(p, r); }, between},
+      {"sample", [peer](const Node& p, Writer& r, Call&) { peer->sample(p, r); }, between},
+  };
+}
+
+}  // namespace
+
+protocol::Service service() {
+  return {"spacetime-optimizer", SPACETIME_VERSION, protocol::optimizer_description(), open};
+}
+
+}  // namespace spacetime::optimizer

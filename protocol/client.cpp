@@ -1,0 +1,301 @@
+#include "protocol/client.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "common/diagnostic.h"
+#include "protocol/framing.h"
+#include "protocol/history.h"
+#include "protocol/service.h"
+#include "protocol/stream.h"
+
+// After stream.h, which has what Asio 1.74 forgets.
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+namespace spacetime::protocol {
+namespace {
+
+namespace asio = boost::asio;
+
+// A daemon that has gone is tried again after so long, then twice as long, and so on.
+constexpr std::chrono::milliseconds first_pause{20};
+constexpr std::chrono::milliseconds longest_pause{2000};
+// ... so often in a row; then it is lost.
+constexpr int most_failures = 12;
+// A request at which the daemon has ended so often is not sent again: it may be why.
+constexpr int most_tries = 8;
+
+constexpr std::size_t longest_answer = std::size_t{1} << 30;
+
+// Starts the program with one socket as its standard input and output; the other end, and its process.
+std::pair<int, pid_t> spawn(const std::vector<std::string>& program) {
+  std::array<int, 2> pair{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
+  std::vector<char*> arguments;
+  for (const std::string& argument : program) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child == 0) {
+    // It must not outlive us, however we end.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(127);
+    dup2(pair[1], STDIN_FILENO);
+    dup2(pair[1], STDOUT_FILENO);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  ::close(pair[1]);
+  if (child < 0) {
+    ::close(pair[0]);
+    throw InputError("no process can be started");
+  }
+  return {pair[0], child};
+}
+
+}  // namespace
+
+// Everything but asking happens in its thread.
+class Client::Link {
+ public:
+  Link(Target target, Callbacks callbacks)
+      : target_(std::move(target)), callbacks_(std::move(callbacks)), pause_(context_), thread_([this] { run(); }) {}
+
+  ~Link() {
+    asio::post(context_, [this] {
+      ending_ = true;
+      pause_.cancel();
+      if (stream_) stream_->close();
+      work_.reset();
+    });
+    thread_.join();
+    bury();
+  }
+
+  int ask(std::string_view method, std::string params, Answered answered, Progress progress) {
+    const int id = ++last_;
+    asio::post(context_, [this, id,
+                          asked = Asked{std::string(method), std::move(params), std::move(answered),
+                                        std::move(progress), 0}]() mutable {
+      Asked& place = asked_[id] = std::move(asked);
+      if (state_ == State::lost) return fail(id, "the daemon is lost");
+      if (state_ == State::ready) send(id, place);
+    });
+    return id;
+  }
+
+  void cancel(int id) {
+    asio::post(context_, [this, id] {
+      const auto found = asked_.find(id);
+      if (found == asked_.end()) return;
+      if (state_ == State::ready) return write(notification("$/cancelRequest", "{\"id\":" + std::to_string(id) + "}"));
+      fail(id, "cancelled while the daemon was away");
+    });
+  }
+
+  int process() const { return process_; }
+
+ private:
+  struct Asked {
+    std::string method, params;
+    Answered answered;
+    Progress progress;
+    int tries = 0;
+  };
+
+  void run() {
+    connect();
+    context_.run();
+  }
+
+  void connect() {
+    if (ending_) return;
+    enter(State::connecting, "");
+    reader_ = FrameReader(longest_answer);
+    outgoing_.clear();
+    writing_ = false;
+    ++generation_;
+    try {
+      if (target_.address) {
+        stream_ = protocol::connect(context_, *target_.address, target_.credentials);
+      } else {
+        const auto [socket, child] = spawn(target_.program);
+        process_ = child;
+        stream_ = socket_stream(context_, socket);
+      }
+    } catch (const InputError& error) {
+      return retry(error.what());
+    }
+    read();
+    resent_ = -1;
+    resend();
+  }
+
+  // Brings the daemon to where it was: greets it, then sends the history, one message after another's answer, and last
+  // what is not answered yet.
+  void resend() {
+    if (resent_ < 0) {
+      write(request("0", "initialize", "{\"protocol\":" + std::to_string(protocol_version) + "}"));
+    } else if (resent_ < static_cast<int>(history_.messages().size())) {
+      const auto& message = history_.messages()[static_cast<std::size_t>(resent_)];
+      write(request("0", message.method, message.params));
+    } else {
+      failures_ = 0;
+      enter(State::ready, "");
+      for (auto& [id, asked] : asked_) send(id, asked);
+    }
+  }
+
+  void send(int id, Asked& asked) {
+    ++asked.tries;
+    write(request(std::to_string(id), asked.method, asked.params));
+  }
+
+  void retry(const std::string& why) {
+    stream_.reset();
+    bury();
+    if (ending_) return;
+    std::vector<int> hopeless;
+    for (const auto& [id, asked] : asked_) {
+      if (asked.tries >= most_tries) hopeless.push_back(id);
+    }
+    for (const int id : hopeless) fail(id, "the daemon has ended each time it was asked this");
+    if (++failures_ > most_failures) {
+      enter(State::lost, why);
+      while (!asked_.empty()) fail(asked_.begin()->first, "the daemon is lost: " + why);
+      return;
+    }
+    enter(State::connecting, why);
+    pause_.expires_after(std::min(longest_pause, first_pause * (1 << (failures_ - 1))));
+    pause_.async_wait([this](boost::system::error_code stopped) {
+      if (!stopped) connect();
+    });
+  }
+
+  // Ends and reaps the daemon's process, if there is one.
+  void bury() {
+    const pid_t child = process_.exchange(0);
+    if (child == 0) return;
+    ::kill(child, SIGKILL);
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+  }
+
+  void fail(int id, const std::string& why) {
+    const auto found = asked_.find(id);
+    const Answered answered = std::move(found->second.answered);
+    asked_.erase(found);
+    Reply reply;
+    reply.error = Json{{"code", static_cast<int>(Code::internal)}, {"message", why}};
+    if (answered) answered(reply);
+  }
+
+  void enter(State state, const std::string& why) {
+    if (state == state_ && why.empty()) return;
+    state_ = state;
+    if (callbacks_.state) callbacks_.state(state, why);
+  }
+
+  void read() {
+    stream_->read_some(block_, [this, generation = generation_](boost::system::error_code error, std::size_t bytes) {
+      if (generation != generation_ || !stream_) return;
+      if (error) return retry("the daemon has ended the connection: " + error.message());
+      reader_.add({block_.data(), bytes});
+      while (auto frame = reader_.next()) take(frame->text);
+      read();
+    });
+  }
+
+  void write(std::string message) {
+    outgoing_.push_back(framed(message, Framing::lines));
+    if (!writing_) write_next();
+  }
+
+  void write_next() {
+    if (outgoing_.empty()) return;
+    writing_ = true;
+    stream_->write_all(outgoing_.front(),
+                       [this, generation = generation_](boost::system::error_code error, std::size_t) {
+                         if (generation != generation_ || error) return;  // the reader sees the end, too
+                         writing_ = false;
+                         outgoing_.pop_front();
+                         write_next();
+                       });
+  }
+
+  void take(const std::string& text) {
+    Json message = Json::parse(text, nullptr, false);
+    if (!message.is_object()) return;
+    if (message.contains("method")) return take_progress(message);
+    if (!message.contains("id") || !message["id"].is_number_integer()) return;
+    const int id = message["id"].get<int>();
+    if (id == 0) {
+      ++resent_;
+      return resend();
+    }
+    const auto found = asked_.find(id);
+    if (found == asked_.end()) return;
+    const Asked asked = std::move(found->second);
+    asked_.erase(found);
+    Reply reply;
+    if (message.contains("error")) {
+      reply.error = std::move(message["error"]);
+    } else {
+      reply.result = std::move(message["result"]);
+      history_.note(asked.method, asked.params, reply.result);
+    }
+    if (asked.answered) asked.answered(reply);
+  }
+
+  void take_progress(const Json& message) {
+    if (message["method"] != "$/progress" || !message["params"]["token"].is_number_integer()) return;
+    const auto found = asked_.find(message["params"]["token"].get<int>());
+    if (found != asked_.end() && found->second.progress) found->second.progress(message["params"]["value"]);
+  }
+
+  const Target target_;
+  const Callbacks callbacks_;
+  std::atomic<int> last_ = 0;
+  std::atomic<int> process_ = 0;
+  asio::io_context context_{1};
+  asio::executor_work_guard<asio::io_context::executor_type> work_ = asio::make_work_guard(context_);
+  asio::steady_timer pause_;
+  std::unique_ptr<Stream> stream_;
+  std::array<char, 1 << 16> block_{};
+  FrameReader reader_{longest_answer};
+  std::deque<std::string> outgoing_;
+  bool writing_ = false, ending_ = false;
+  int generation_ = 0;  // of streams: what an older one calls back with is stale
+  int resent_ = 0, failures_ = 0;
+  State state_ = State::lost;
+  std::map<int, Asked> asked_;
+  History history_;
+  std::thread thread_;
+};
+
+Client::Client(Target target, Callbacks callbacks)
+    : link_(std::make_unique<Link>(std::move(target), std::move(callbacks))) {}
+
+Client::~Client() = default;
+
+int Client::ask(std::string_view method, std::string params, Answered answered, Progress progress) {
+  return link_->ask(method, std::move(params), std::move(answered), std::move(progress));
+}
+
+void Client::cancel(int id) { link_->cancel(id); }
+
+int Client::process() const { return link_->process(); }
+
+}  // namespace spacetime::protocol

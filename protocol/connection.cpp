@@ -1,0 +1,235 @@
+#include "protocol/connection.h"
+
+#include <boost/asio/error.hpp>
+#include <boost/asio/post.hpp>
+
+namespace spacetime::protocol {
+namespace {
+
+// Progress is for eyes: more than the fastest screens show is waste.
+constexpr std::chrono::microseconds between_progress{1'000'000 / 120};
+
+// A session whose peer has not taken so many bytes of answers does no more work until it has.
+constexpr std::size_t most_unsent_bytes = std::size_t{4} << 20;
+
+constexpr std::chrono::milliseconds look_again{10};  // where reading waits for room
+constexpr std::chrono::seconds refusal_patience{5};  // for a peer that has no session to say something and go
+
+}  // namespace
+
+Connection::Connection(boost::asio::io_context& context, std::unique_ptr<Stream> stream, const Service* service,
+                       const Allowance& allowance, Events events)
+    : context_(context),
+      stream_(std::move(stream)),
+      allowance_(allowance),
+      events_(std::move(events)),
+      reader_(static_cast<std::size_t>(service ? allowance.message : 4096)),
+      resume_(context),
+      pace_(context),
+      watch_(context),
+      last_heard_(Clock::now()),
+      last_written_(last_heard_) {
+  if (service) conversation_.emplace(*service, allowance, *this);
+}
+
+void Connection::start() {
+  read();
+  watch();
+}
+
+void Connection::finish() {
+  reading_ends_ = true;
+  if (conversation_) return conversation_->hang_up();
+  ended();
+}
+
+void Connection::cut() {
+  broken_ = true;
+  stream_->close();
+  pace_.cancel();
+  resume_.cancel();
+  finish();
+  const std::lock_guard lock(mutex_);
+  forget();
+}
+
+// What nobody will read.
+void Connection::forget() {
+  for (const Outgoing& outgoing : queue_) unsent_bytes_ -= outgoing.bytes;
+  queue_.clear();
+  newest_ = {};
+}
+
+void Connection::read() {
+  if (broken_ || reading_ends_) return;
+  if (too_much_waits()) {
+    resume_.expires_after(look_again);
+    resume_.async_wait([self = shared_from_this()](boost::system::error_code stopped) {
+      if (!stopped) self->read();
+    });
+    return;
+  }
+  stream_->read_some(block_, [self = shared_from_this()](boost::system::error_code error, std::size_t bytes) {
+    if (!error) return self->take({self->block_.data(), bytes});
+    self->reading_ends_ = true;
+    if (!self->conversation_) return self->ended();
+    // Whoever has only closed its sending side still reads the answers.
+    if (error == boost::asio::error::eof) return self->conversation_->end_of_input();
+    self->cut();
+  });
+}
+
+bool Connection::too_much_waits() const {
+  return full() || (conversation_ && static_cast<double>(conversation_->waiting_bytes()) > allowance_.message);
+}
+
+void Connection::take(std::string_view bytes) {
+  reader_.add(bytes);
+  while (auto frame = reader_.next()) {
+    if (reading_ends_) return;
+    last_heard_ = Clock::now();
+    reading_ends_ = frame->ends;
+    if (!conversation_) return refuse(*frame);
+    if (events_.passed) events_.passed(frame->text, true);
+    conversation_->receive(std::move(*frame));
+  }
+  read();
+}
+
+void Connection::refuse(const Frame& frame) {
+  std::optional<std::string> id;
+  try {
+    if (frame.kind == Frame::Kind::message) read_request(frame.text, static_cast<std::size_t>(allowance_.depth), id);
+  } catch (const Error&) {
+    // Whatever it was, it is not served.
+  }
+  send(answer(id, beyond("sessions", allowance_, allowance_.sessions + 1)));
+  reading_ends_ = true;
+  ended();
+}
+
+void Connection::send(std::string message) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (newest_) queue_.push_back({std::exchange(newest_, {}), 0});
+    const std::size_t bytes = message.size();
+    unsent_bytes_ += bytes;
+    queue_.push_back({[message = std::move(message)]() mutable { return std::move(message); }, bytes});
+  }
+  wake();
+}
+
+void Connection::offer(std::function<std::string()> message) {
+  {
+    const std::lock_guard lock(mutex_);
+    newest_ = std::move(message);
+  }
+  wake();
+}
+
+bool Connection::full() const { return unsent_bytes_ > most_unsent_bytes; }
+
+void Connection::ended() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+  }
+  wake();
+}
+
+// Has write() called in the io_context's thread, once however often it is asked for.
+void Connection::wake() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(wake_coming_, true)) return;
+  }
+  auto alive = weak_from_this().lock();  // the session's thread says its last word while this is being destroyed
+  if (!alive) return;
+  boost::asio::post(context_, [self = std::move(alive)] {
+    {
+      const std::lock_guard lock(self->mutex_);
+      self->wake_coming_ = false;
+    }
+    self->write();
+  });
+}
+
+void Connection::write() {
+  if (writing_ || gone_) return;
+  Outgoing next;
+  bool over = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (broken_) forget();
+    if (!queue_.empty()) {
+      next = std::move(queue_.front());
+      queue_.pop_front();
+    } else if (newest_) {
+      const auto due = last_progress_ + between_progress;
+      if (Clock::now() >= due || ended_) {
+        next = {std::exchange(newest_, {}), 0};
+        last_progress_ = Clock::now();
+      } else {
+        pace_.expires_at(due);
+        pace_.async_wait([self = shared_from_this()](boost::system::error_code stopped) {
+          if (!stopped) self->write();
+        });
+      }
+    }
+    over = !next.write && !newest_ && ended_;
+  }
+  if (over) {
+    gone_ = true;
+    stream_->close();
+    watch_.cancel();
+    resume_.cancel();
+    pace_.cancel();
+    if (events_.gone) events_.gone();
+    return;
+  }
+  if (!next.write) return;
+  const std::string message = next.write();
+  if (events_.passed) events_.passed(message, false);
+  // Before the peer's first byte its framing is not known; only an end without any message comes so early.
+  outgoing_ = framed(message, reader_.framing());
+  writing_ = true;
+  last_written_ = Clock::now();
+  stream_->write_all(outgoing_,
+                     [self = shared_from_this(), bytes = next.bytes](boost::system::error_code error, std::size_t) {
+                       const bool was_full = self->full();
+                       self->unsent_bytes_ -= bytes;
+                       if (was_full && !self->full() && self->conversation_) self->conversation_->drained();
+                       self->written(error);
+                     });
+}
+
+void Connection::written(boost::system::error_code error) {
+  writing_ = false;
+  last_written_ = Clock::now();
+  outgoing_.clear();
+  if (outgoing_.capacity() > most_unsent_bytes) outgoing_ = {};
+  if (error && !broken_) cut();
+  write();
+}
+
+// Ends a connection on which nothing has happened for too long.
+void Connection::watch() {
+  const std::chrono::duration<double> idle =
+      conversation_ ? std::chrono::duration<double>(allowance_.idle) : std::chrono::duration<double>(refusal_patience);
+  watch_.expires_after(std::min(std::chrono::duration_cast<Clock::duration>(idle / 2 + look_again),
+                                Clock::duration(std::chrono::seconds(10))));
+  watch_.async_wait([self = shared_from_this(), idle](boost::system::error_code stopped) {
+    if (stopped || self->gone_) return;
+    const auto now = Clock::now();
+    if (self->writing_) {
+      if (now - self->last_written_ > idle) return self->cut();
+    } else if (now - self->last_heard_ > idle && !self->reading_ends_ &&
+               !(self->conversation_ && self->conversation_->busy())) {
+      self->send(answer(std::nullopt, beyond("idle", self->allowance_, self->allowance_.idle)));
+      return self->finish();
+    }
+    self->watch();
+  });
+}
+
+}  // namespace spacetime::protocol

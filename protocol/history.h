@@ -1,0 +1,32 @@
+// What must be sent to a new optimizer so that it stands where another one stood: kept by a client from what was asked
+// and answered.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/json.h"
+
+namespace spacetime::protocol {
+
+class History {
+ public:
+  struct Message {
+    std::string method, params;  // params as JSON text
+    bool run = false;            // it iterates, or sets a motion: a later checkpoint makes it needless
+  };
+
+  // Takes note of a request that was answered with this result.
+  void note(std::string_view method, std::string_view params, const Json& result);
+
+  // To be sent one after another, each when the one before has been answered.
+  const std::vector<Message>& messages() const { return messages_; }
+
+ private:
+  void note_log(const Json& result);
+
+  std::vector<Message> messages_;
+};
+
+}  // namespace spacetime::protocol

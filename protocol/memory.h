@@ -1,0 +1,35 @@
+// How much memory each session holds, and an end to it: whoever links this has its operator new count for the account
+// of the thread that allocates.  What Eigen takes for its matrices by malloc is not counted; the limit of unknowns
+// bounds that.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <new>
+
+namespace spacetime::protocol {
+
+struct Account {
+  std::atomic<std::ptrdiff_t> used{0};  // bytes that were allocated for it and not freed yet, by whomever
+  std::ptrdiff_t most = 0;
+};
+
+// Thrown by operator new where an account would be exceeded.
+class AccountExceeded : public std::bad_alloc {
+ public:
+  const char* what() const noexcept override { return "more memory than this session may hold"; }
+};
+
+// As long as it lives, its thread allocates for an account of its own.
+class Accounting {
+ public:
+  explicit Accounting(double most_bytes);
+  ~Accounting();
+  Accounting(const Accounting&) = delete;
+  Accounting& operator=(const Accounting&) = delete;
+
+ private:
+  Account& account_;
+};
+
+}  // namespace spacetime::protocol

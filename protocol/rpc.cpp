@@ -1,0 +1,118 @@
+#include "protocol/rpc.h"
+
+#include <algorithm>
+
+#include "protocol/strict.h"
+#include "protocol/writer.h"
+
+namespace spacetime::protocol {
+namespace {
+
+constexpr std::size_t most_id_bytes = 256;
+constexpr std::string_view message_name = "message";
+
+std::optional<std::string> id_of(const Node& node) {
+  const auto member = node.find("id");
+  if (!member || member->is_null()) return std::nullopt;
+  const Json& json = member->json();
+  if (!json.is_string() && !json.is_number_integer()) member->expected("a string or an integer");
+  std::string text = json.dump();
+  if (text.size() > most_id_bytes) member->refuse("an id of more than " + std::to_string(most_id_bytes) + " bytes");
+  return text;
+}
+
+std::string opened(const std::optional<std::string>& id) {
+  return "{\"jsonrpc\":\"2.0\",\"id\":" + id.value_or("null") + ",";
+}
+
+}  // namespace
+
+std::size_t depth_of(std::string_view text, std::size_t most) {
+  std::size_t depth = 0, deepest = 0;
+  for (std::size_t i = 0; i < text.size() && deepest <= most; ++i) {
+    switch (text[i]) {
+      case '"':
+        for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
+        break;
+      case '[':
+      case '{':
+        deepest = std::max(deepest, ++depth);
+        break;
+      case ']':
+      case '}':
+        if (depth > 0) --depth;
+        break;
+      default:
+        break;
+    }
+  }
+  return deepest;
+}
+
+Request read_request(std::string_view text, std::size_t depth, std::optional<std::string>& id) {
+  if (depth_of(text, depth) > depth) {
+    throw Error(Code::too_deep,
+                "more than " + std::to_string(depth) + " objects and lists inside one another: send it flatter",
+                limit_data("depth", static_cast<double>(depth)));
+  }
+  Json tree;
+  try {
+    tree = parse(text, message_name);
+  } catch (const DocumentError& error) {
+    throw Error(Code::not_json, error.what());
+  }
+  try {
+    const Node node(tree, message_name);
+    if (tree.is_array()) node.refuse("send requests one by one, not as a list");
+    id = id_of(node);
+    if (node.find("result") || node.find("error")) return {};
+    node.object({"jsonrpc", "method"}, {"id", "params"});
+    if (node["jsonrpc"].string() != "2.0") node["jsonrpc"].expected("\"2.0\"");
+    Request request{id, node["method"].string(), Json::object()};
+    if (const auto params = node.find("params"); params && !params->is_null()) {
+      if (!params->is_object()) params->expected("an object (parameters go by name)");
+      request.params = std::move(tree["params"]);
+    }
+    return request;
+  } catch (const DocumentError& error) {
+    throw Error(Code::not_a_request, error.what());
+  }
+}
+
+std::string answer(const std::optional<std::string>& id, std::string_view result) {
+  return opened(id).append("\"result\":").append(result).append("}");
+}
+
+std::string answer(const std::optional<std::string>& id, const Error& error) {
+  // A sentence may quote what is no UTF-8.
+  std::string text = opened(id) + "\"error\":{\"code\":" + std::to_string(static_cast<int>(error.code())) +
+                     ",\"message\":" + Json(error.what()).dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!error.data().empty()) text.append(",\"data\":").append(error.data());
+  return text.append("}}");
+}
+
+std::string notification(std::string_view method, std::string_view params) {
+  return std::string("{\"jsonrpc\":\"2.0\",\"method\":\"").append(method).append("\",\"params\":").append(params) + "}";
+}
+
+std::string request(std::string_view id, std::string_view method, std::string_view params) {
+  return std::string("{\"jsonrpc\":\"2.0\",\"id\":")
+             .append(id)
+             .append(",\"method\":\"")
+             .append(method)
+             .append("\",\"params\":")
+             .append(params) +
+         "}";
+}
+
+std::string limit_data(std::string_view name, double most) {
+  Writer to(false);
+  to.object([&] {
+    to.member("limit", name);
+    to.member("most", most);
+    to.member("option", "--limit-" + std::string(name));
+  });
+  return to.take();
+}
+
+}  // namespace spacetime::protocol

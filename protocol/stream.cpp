@@ -1,0 +1,331 @@
+#include "protocol/stream.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <cerrno>
+#include <thread>
+
+#include "common/diagnostic.h"
+
+namespace spacetime::protocol {
+namespace {
+
+namespace asio = boost::asio;
+using Socket = asio::generic::stream_protocol::socket;
+using TlsSocket = asio::ssl::stream<Socket>;
+
+// A peer that has connected but does not finish the TLS handshake is dropped after so long.
+constexpr std::chrono::seconds handshake_patience{10};
+// So many may be in their handshakes at one time; others wait in the kernel's queue.
+constexpr int most_handshakes = 32;
+
+template <class Lowest>
+void write_to(Lowest& socket, std::string_view bytes, Stream::Done done) {
+  asio::async_write(socket, asio::buffer(bytes.data(), bytes.size()), std::move(done));
+}
+
+class SocketStream final : public Stream {
+ public:
+  explicit SocketStream(Socket socket) : socket_(std::move(socket)) {}
+  void read_some(std::span<char> into, Done done) override {
+    socket_.async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
+  }
+  void write_all(std::string_view bytes, Done done) override { write_to(socket_, bytes, std::move(done)); }
+  void close() override {
+    boost::system::error_code ignored;
+    socket_.shutdown(Socket::shutdown_both, ignored);
+    socket_.close(ignored);
+  }
+
+ private:
+  Socket socket_;
+};
+
+class TlsStream final : public Stream {
+ public:
+  TlsStream(std::shared_ptr<asio::ssl::context> context, std::unique_ptr<TlsSocket> socket)
+      : context_(std::move(context)), socket_(std::move(socket)) {}
+  void read_some(std::span<char> into, Done done) override {
+    socket_->async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
+  }
+  void write_all(std::string_view bytes, Done done) override { write_to(*socket_, bytes, std::move(done)); }
+  void close() override {
+    // Without TLS's own farewell, which would wait for the peer: every message carries its length or its end.
+    boost::system::error_code ignored;
+    socket_->lowest_layer().shutdown(Socket::shutdown_both, ignored);
+    socket_->lowest_layer().close(ignored);
+  }
+
+ private:
+  std::shared_ptr<asio::ssl::context> context_;
+  std::unique_ptr<TlsSocket> socket_;
+};
+
+bool send_all(int to, const char* bytes, std::size_t size, bool socket) {
+  while (size > 0) {
+    const auto sent = socket ? ::send(to, bytes, size, MSG_NOSIGNAL) : ::write(to, bytes, size);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    bytes += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+  return true;
+}
+
+// Copies until the source ends or the sink does not take more.
+void copy_all(int from, int to, bool to_socket) {
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const auto got = ::read(from, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0 || !send_all(to, block.data(), static_cast<std::size_t>(got), to_socket)) return;
+  }
+}
+
+class StandardStream final : public Stream {
+ public:
+  explicit StandardStream(asio::io_context& context) {
+    std::array<int, 2> pair{};
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
+    inner_ = pair[1];
+    socket_ = std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, pair[0]));
+    // The first ends with standard input, which may be never: nobody waits for it, and it uses nothing of this object.
+    std::thread([inner = dup(inner_)] {
+      copy_all(STDIN_FILENO, inner, true);
+      ::shutdown(inner, SHUT_WR);
+      ::close(inner);
+    }).detach();
+    output_ = std::thread([inner = inner_] {
+      copy_all(inner, STDOUT_FILENO, false);
+      ::shutdown(inner, SHUT_RDWR);  // standard output takes no more: whoever writes is to know
+    });
+  }
+  ~StandardStream() override {
+    socket_->close();
+    output_.join();
+    ::close(inner_);
+  }
+  void read_some(std::span<char> into, Done done) override { socket_->read_some(into, std::move(done)); }
+  void write_all(std::string_view bytes, Done done) override { socket_->write_all(bytes, std::move(done)); }
+  void close() override { socket_->close(); }
+
+ private:
+  std::unique_ptr<SocketStream> socket_;
+  int inner_ = -1;
+  std::thread output_;
+};
+
+std::shared_ptr<asio::ssl::context> tls_context(const Credentials& credentials, bool server) {
+  const auto context =
+      std::make_shared<asio::ssl::context>(server ? asio::ssl::context::tls_server : asio::ssl::context::tls_client);
+  const auto load = [](const std::string& file, const char* option, auto use) {
+    if (file.empty()) throw InputError(std::string("tls:// needs ") + option + ": see protocol/PROTOCOL.md, \"TLS\"");
+    boost::system::error_code error;
+    use(error);
+    if (error) throw InputError("cannot use " + std::string(option) + " '" + file + "': " + error.message());
+  };
+  SSL_CTX_set_min_proto_version(context->native_handle(), TLS1_2_VERSION);
+  load(credentials.certificate, "--certificate",
+       [&](auto& error) { context->use_certificate_chain_file(credentials.certificate, error); });
+  load(credentials.key, "--key",
+       [&](auto& error) { context->use_private_key_file(credentials.key, asio::ssl::context::pem, error); });
+  load(credentials.authority, "--authority",
+       [&](auto& error) { context->load_verify_file(credentials.authority, error); });
+  context->set_verify_mode(asio::ssl::verify_peer | asio::ssl::verify_fail_if_no_peer_cert);
+  return context;
+}
+
+class SocketListener final : public Listener {
+ public:
+  SocketListener(asio::io_context& context, const Address& address, const Credentials& credentials)
+      : context_(context), acceptor_(context), again_(context), address_(address) {
+    if (address.kind == Address::Kind::tls) tls_ = tls_context(credentials, true);
+    if (address.kind == Address::Kind::unix_socket) {
+      listen_on_path();
+    } else {
+      listen_on_port();
+    }
+  }
+  ~SocketListener() override {
+    if (!owned_path_.empty()) ::unlink(owned_path_.c_str());
+  }
+
+  void accept(std::function<void(std::unique_ptr<Stream>)> accepted,
+              std::function<void(std::string)> refused) override {
+    accepted_ = std::move(accepted);
+    refused_ = std::move(refused);
+    accept_next();
+  }
+
+  std::string address() const override {
+    if (address_.kind == Address::Kind::unix_socket) return "unix:" + address_.path;
+    const bool six = address_.host.find(':') != std::string::npos;
+    return (address_.kind == Address::Kind::tls ? "tls://" : "tcp://") +
+           (six ? "[" + address_.host + "]" : address_.host) + ":" + address_.port;
+  }
+
+ private:
+  void open(const asio::generic::stream_protocol::endpoint& endpoint) {
+    boost::system::error_code error;
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error && endpoint.protocol().family() != AF_UNIX) {
+      acceptor_.set_option(asio::socket_base::reuse_address(true), error);
+    }
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (error) throw InputError("cannot listen on " + address() + ": " + error.message());
+  }
+
+  void listen_on_path() {
+    const std::string& path = address_.path;
+    if (path.size() >= sizeof(sockaddr_un::sun_path))
+      throw InputError("the path of a UNIX socket is too long: " + path);
+    const asio::local::stream_protocol::endpoint endpoint(path);
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) == 0) {
+      if (!S_ISSOCK(status.st_mode)) throw InputError("'" + path + "' is there already and is no socket");
+      asio::local::stream_protocol::socket probe(context_);
+      boost::system::error_code error;
+      probe.connect(endpoint, error);
+      if (!error) throw InputError("a daemon listens on '" + path + "' already");
+      ::unlink(path.c_str());  // left behind by one that was killed
+    }
+    const mode_t before = ::umask(0177);
+    try {
+      open(endpoint);
+    } catch (...) {
+      ::umask(before);
+      throw;
+    }
+    ::umask(before);
+    owned_path_ = path;
+  }
+
+  void listen_on_port() {
+    asio::ip::tcp::resolver resolver(context_);
+    boost::system::error_code error;
+    const auto found = resolver.resolve(address_.host, address_.port, asio::ip::resolver_base::passive, error);
+    if (error) throw InputError("cannot find the host '" + address_.host + "': " + error.message());
+    const auto endpoint = found.begin()->endpoint();
+    if (address_.kind == Address::Kind::tcp && !endpoint.address().is_loopback()) {
+      throw InputError(
+          "tcp:// is for this machine alone (127.0.0.1, ::1), since anybody could connect: use tls:// for '" +
+          address_.host + "'");
+    }
+    open(endpoint);
+    const auto bound = acceptor_.local_endpoint();
+    asio::ip::tcp::endpoint chosen;
+    std::copy_n(static_cast<const char*>(static_cast<const void*>(bound.data())), bound.size(),
+                static_cast<char*>(static_cast<void*>(chosen.data())));
+    chosen.resize(bound.size());
+    address_.port = std::to_string(chosen.port());
+  }
+
+  void accept_next() {
+    acceptor_.async_accept([this, alive = std::weak_ptr(alive_)](boost::system::error_code error, Socket socket) {
+      if (alive.expired() || error == asio::error::operation_aborted) return;
+      if (error) {  // too many open files, or a connection that is gone already
+        refused_(error.message());
+        again_.expires_after(std::chrono::milliseconds(100));
+        again_.async_wait([this](boost::system::error_code stopped) {
+          if (!stopped) accept_next();
+        });
+        return;
+      }
+      boost::system::error_code ignored;  // there is nothing to send at once on a UNIX socket
+      socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+      if (tls_) {
+        shake_hands(std::move(socket));
+      } else {
+        accepted_(std::make_unique<SocketStream>(std::move(socket)));
+      }
+      if (handshakes_ < most_handshakes) accept_next();
+    });
+  }
+
+  void shake_hands(Socket socket) {
+    auto secured = std::make_shared<std::unique_ptr<TlsSocket>>(std::make_unique<TlsSocket>(std::move(socket), *tls_));
+    const auto patience = std::make_shared<asio::steady_timer>(context_, handshake_patience);
+    TlsSocket& tls = **secured;
+    patience->async_wait([secured](boost::system::error_code stopped) {
+      boost::system::error_code ignored;
+      if (!stopped && *secured) (*secured)->lowest_layer().close(ignored);
+    });
+    ++handshakes_;
+    tls.async_handshake(asio::ssl::stream_base::server,
+                        [=, this, alive = std::weak_ptr(alive_)](boost::system::error_code error) {
+                          patience->cancel();
+                          if (alive.expired()) return;
+                          if (handshakes_-- == most_handshakes) accept_next();
+                          if (error) {
+                            refused_("TLS: " + error.message());
+                          } else {
+                            accepted_(std::make_unique<TlsStream>(tls_, std::move(*secured)));
+                          }
+                        });
+  }
+
+  asio::io_context& context_;
+  asio::basic_socket_acceptor<asio::generic::stream_protocol> acceptor_;
+  asio::steady_timer again_;
+  Address address_;
+  std::shared_ptr<asio::ssl::context> tls_;
+  std::string owned_path_;
+  int handshakes_ = 0;
+  std::shared_ptr<int> alive_ = std::make_shared<int>();  // for what is called back after this is destroyed
+  std::function<void(std::unique_ptr<Stream>)> accepted_;
+  std::function<void(std::string)> refused_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stream> standard_stream(asio::io_context& context) { return std::make_unique<StandardStream>(context); }
+
+std::unique_ptr<Stream> socket_stream(asio::io_context& context, int descriptor) {
+  return std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, descriptor));
+}
+
+std::unique_ptr<Listener> listen(asio::io_context& context, const Address& address, const Credentials& credentials) {
+  return std::make_unique<SocketListener>(context, address, credentials);
+}
+
+std::unique_ptr<Stream> connect(asio::io_context& context, const Address& address, const Credentials& credentials) {
+  const auto failed = [&](const boost::system::error_code& error) {
+    throw InputError("cannot connect to " + (address.path.empty() ? address.host + ":" + address.port : address.path) +
+                     ": " + error.message());
+  };
+  boost::system::error_code error;
+  if (address.kind == Address::Kind::unix_socket) {
+    asio::local::stream_protocol::socket socket(context);
+    socket.connect(asio::local::stream_protocol::endpoint(address.path), error);
+    if (error) failed(error);
+    return std::make_unique<SocketStream>(std::move(socket));
+  }
+  asio::ip::tcp::resolver resolver(context);
+  const auto found = resolver.resolve(address.host, address.port, error);
+  if (error) failed(error);
+  asio::ip::tcp::socket socket(context);
+  asio::connect(socket, found, error);
+  if (error) failed(error);
+  socket.set_option(asio::ip::tcp::no_delay(true), error);
+  if (address.kind == Address::Kind::tcp) return std::make_unique<SocketStream>(std::move(socket));
+  const auto tls = tls_context(credentials, false);
+  auto secured = std::make_unique<TlsSocket>(Socket(std::move(socket)), *tls);
+  secured->set_verify_callback(asio::ssl::host_name_verification(address.host));
+  secured->handshake(asio::ssl::stream_base::client, error);
+  if (error) failed(error);
+  return std::make_unique<TlsStream>(tls, std::move(secured));
+}
+
+}  // namespace spacetime::protocol

@@ -1,0 +1,71 @@
+#include "protocol/framing.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace spacetime::protocol {
+namespace {
+
+constexpr std::size_t most = 100;
+
+std::vector<std::string> frames(const std::vector<std::string_view>& pieces) {
+  FrameReader reader(most);
+  std::vector<std::string> found;
+  for (const auto piece : pieces) {
+    reader.add(piece);
+    while (const auto frame = reader.next()) {
+      const char* kind[] = {"", "too long: ", "broken: "};
+      found.push_back(kind[static_cast<int>(frame->kind)] + frame->text);
+    }
+  }
+  return found;
+}
+
+const std::string lines = "\r\n {\"a\": 1}\r\n\n[2]\n" + std::string(150, 'x') + "\n{\"b\": 3}\nunfinished";
+const std::string headers =
+    "Content-Length: 7\r\n\r\n{\"a\":1}content-length:3\r\nContent-Type: x\r\n\r\n[\n]\n\nContent-Length: "
+    "0\n\nContent-Length: "
+    "2\r\n\r\n{}";
+
+TEST(Framing, WhatAStreamHoldsWhereverItIsCut) {
+  for (const std::string& stream : {lines, headers}) {
+    const auto whole = frames({stream});
+    EXPECT_EQ(whole.size(), 4u);
+    std::vector<std::string_view> bytes;
+    for (std::size_t k = 0; k < stream.size(); ++k) {
+      const std::string_view view = stream;
+      EXPECT_EQ(frames({view.substr(0, k), view.substr(k)}), whole) << k;
+      bytes.push_back(view.substr(k, 1));
+    }
+    EXPECT_EQ(frames(bytes), whole);
+  }
+}
+
+TEST(Framing, MessagesAreThoseThatWereSent) {
+  EXPECT_EQ(frames({lines}),
+            (std::vector<std::string>{"{\"a\": 1}", "[2]",
+                                      "too long: a message of more than 100 bytes, more than the limit of 100",
+                                      "{\"b\": 3}"}));
+  EXPECT_EQ(frames({headers}), (std::vector<std::string>{"{\"a\":1}", "[\n]", "", "{}"}));
+  for (const auto framing : {Framing::lines, Framing::headers}) {
+    EXPECT_EQ(frames({framed("{\"c\":4}", framing)}), std::vector<std::string>{"{\"c\":4}"});
+  }
+}
+
+TEST(Framing, WhatNoPeerMaySay) {
+  for (const std::string stream : {"Content-Length: -1\r\n\r\n", "Content-Length: 1e3\r\n\r\n",
+                                   "Content-Length 3\r\n\r\n", "Content-Length: 3\r\nContent-Length: 3\r\n\r\n",
+                                   "GET / HTTP/1.1\r\n\r\n", "Content-Length: 99999999999999999999\r\n\r\n"}) {
+    const auto found = frames({stream});
+    ASSERT_EQ(found.size(), 1u) << stream;
+    EXPECT_TRUE(found[0].starts_with("broken: ")) << stream;
+  }
+  EXPECT_TRUE(frames({"A" + std::string(2000, 'a')})[0].starts_with("broken: "));
+  EXPECT_TRUE(frames({"Content-Length: 101\r\n\r\n"})[0].starts_with("too long: "));
+  EXPECT_TRUE(frames({"Content-Length: 10000000000\r\n\r\n{"})[0].starts_with("too long: "));
+}
+
+}  // namespace
+}  // namespace spacetime::protocol

@@ -1,0 +1,196 @@
+"""Hostile peers: each is refused or served, memory stays bounded, and a session beside them notices nothing."""
+import contextlib
+import json
+import random
+import socket
+import threading
+import time
+import unittest
+
+from tests.wire import peer
+
+# What one daemon may hold beyond what it holds idle, with any of these at work: twice the message limit and some.
+MEMORY = 64 << 20
+OPTIONS = ["--limit-message", "4000000", "--limit-sessions", "20"]
+
+
+class Hostile(unittest.TestCase):
+    def setUp(self):
+        self.daemon = self.enterContext(peer.Daemon("optimizer", "unix", OPTIONS))
+        self.problem = peer.problem_of("examples/throw.scene")
+        self.beside = self.daemon.connect()
+        self.beside.greet()
+        self.beside.ask("problem/load", problem=self.problem)
+        self.beside.ask("action/do", action={"action": "solve"})
+        self.idle_bytes = self.daemon.resident_bytes()
+
+    def tearDown(self):
+        # The session beside is served, the daemon's memory is bounded, and it ends cleanly.
+        self.beside.ask("action/do", action={"action": "set", "constant": "BasketX", "value": 2.7})
+        self.assertEqual(self.beside.ask("action/do", action={"action": "solve"})["status"], "converged")
+        grown = self.daemon.resident_bytes() - self.idle_bytes
+        print(f"{self._testMethodName}: {grown / 1e6:.1f} MB more", flush=True)
+        self.assertLess(grown, MEMORY)
+        self.beside.close()
+        self.assertEqual(self.daemon.end(), 0)
+
+    def test_a_reader_that_never_reads(self):
+        stream = self.daemon.open_socket()
+        stream.setblocking(False)
+        messages = [{"method": "initialize", "params": {"protocol": 1}}, {"method": "problem/load", "params": {"problem": self.problem}}]
+        messages += [{"method": "motion/get"}] * 20000
+        data = b"".join(json.dumps({"jsonrpc": "2.0", "id": i, **m}).encode() + b"\n" for i, m in enumerate(messages))
+        sent, still = 0, 0
+        while sent < len(data) and still < 50:  # until it takes nothing more
+            try:
+                sent += stream.send(data[sent:sent + 65536])
+                still = 0
+            except BlockingIOError:
+                still += 1
+                time.sleep(0.01)
+        self.assertLess(self.daemon.resident_bytes() - self.idle_bytes, MEMORY)
+        self.addCleanup(stream.close)
+
+    def test_a_writer_that_stops_inside_a_message(self):
+        for beginning in (b"{", b'{"jsonrpc": "2.0", "id": 1, "meth', b"Content-Length: 100\r\n", b"Content-Length: 100\r\n\r\n{",
+                          b"{" + b" " * 3_000_000):
+            stream = self.daemon.open_socket()
+            stream.sendall(beginning)
+            self.addCleanup(stream.close)
+
+    def test_two_hundred_connections(self):
+        with contextlib.ExitStack() as stack:
+            served = refused = 0
+            peers = []
+            for _ in range(200):
+                with contextlib.suppress(ConnectionError, BlockingIOError):
+                    peers.append(stack.enter_context(self.daemon.connect()))
+            for each in peers:
+                try:
+                    number = each.start("initialize", protocol=1)
+                    served += "result" in each.answer(number)
+                except (peer.Ended, ConnectionError, BrokenPipeError):
+                    refused += 1
+            self.assertEqual(served, 19)  # and the one beside
+            self.assertEqual(refused + len(peers) - served - refused, len(peers) - served)
+        # When they have gone there is room again.
+        deadline = time.monotonic() + peer.PATIENCE
+        while time.monotonic() < deadline:
+            with self.daemon.connect() as again, contextlib.suppress(peer.Ended, ConnectionError):
+                if "result" in again.answer(again.start("initialize", protocol=1)):
+                    return
+        self.fail("no room")
+
+    def test_one_session_too_many_is_told_so(self):
+        with contextlib.ExitStack() as stack:
+            for _ in range(19):
+                stack.enter_context(self.daemon.connect()).greet()
+            for framing in peer.FRAMINGS:
+                with self.daemon.connect(framing) as late:
+                    error = late.answer(late.start("initialize", protocol=1))["error"]
+                    self.assertEqual((error["code"], error["data"]["limit"]), (-32015, "sessions"))
+                    self.assertEqual(late.rest(), [])
+
+    def test_ten_gigabytes_claimed(self):
+        with self.daemon.connect("headers") as claimer:
+            claimer.send_raw(b"Content-Length: 10000000000\r\n\r\n{")
+            error = claimer.receive()["error"]
+            self.assertEqual((error["code"], error["data"]["most"]), (-32010, 4000000))
+            self.assertEqual(claimer.rest(), [])
+
+    def test_ten_gigabytes_in_one_line(self):
+        with self.daemon.connect() as writer:
+            writer.greet()
+            for _ in range(300):  # a line that goes on for 30 MB is skipped to its end
+                writer.send_raw(b"[" * 100_000)
+            writer.send_raw(b"\n")
+            self.assertEqual(writer.receive()["error"]["code"], -32010)
+            self.assertEqual(writer.answer(writer.start("motion/get"))["error"]["code"], -32003)
+
+    def test_a_hundred_thousand_brackets(self):
+        with self.daemon.connect() as nested:
+            nested.greet()
+            for text in (b"[" * 100_000, b'{"a":' * 100_000, b"[" * 100_000 + b"]" * 100_000):
+                nested.send_raw(text + b"\n")
+                self.assertEqual(nested.receive()["error"]["code"], -32011)
+
+    def test_a_million_random_bytes(self):
+        seed = 1992
+        print("seed", seed)
+        chance = random.Random(seed)
+        for _ in range(20):
+            stream = self.daemon.open_socket()
+
+            def drain(stream=stream):
+                with contextlib.suppress(OSError):
+                    while stream.recv(65536):
+                        pass
+            reader = threading.Thread(target=drain)
+            reader.start()
+            with contextlib.suppress(OSError):
+                stream.sendall(chance.randbytes(50_000))
+                stream.shutdown(socket.SHUT_WR)
+            reader.join(peer.PATIENCE)
+            self.assertFalse(reader.is_alive())
+            stream.close()
+
+    def test_requests_with_a_byte_changed(self):
+        seed = 1994
+        print("seed", seed)
+        chance = random.Random(seed)
+        message = bytearray(json.dumps({"jsonrpc": "2.0", "id": 1, "method": "problem/load",
+                                        "params": {"problem": self.problem}}).encode())
+        with self.daemon.connect() as changer:
+            changer.greet()
+            for k in range(60):
+                changed = bytearray(message)
+                changed[chance.randrange(len(changed))] = chance.choice([b for b in range(256) if b != 10])
+                changer.send_raw(bytes(changed) + b"\n")
+                changer.send({"jsonrpc": "2.0", "id": f"after {k}", "method": "action/do", "params": {"action": {"action": "iterate", "iterations": 0}}})
+                self.assertIsNotNone(changer.answer(f"after {k}"))
+
+    def test_more_requests_than_may_wait(self):
+        with self.daemon.connect() as eager:
+            eager.greet()
+            eager.ask("problem/load", problem=self.problem)
+            eager.ask("action/do", action={"action": "solve", "tolerance": 1e-300, "iterations": 1})
+            for _ in range(1500):
+                eager.start("action/do", action={"action": "solve"})
+            codes = [eager.receive_answer().get("error", {}).get("code") for _ in range(1500)]
+            self.assertIn(-32018, codes)
+            self.assertTrue(set(codes) <= {None, -32018})
+
+
+class Limits(unittest.TestCase):
+    def test_each_limit_has_its_error(self):
+        load = {"method": "problem/load", "problem": peer.problem_of("examples/throw.scene")}
+        large = {"method": "problem/load", "problem": peer.problem_of("tests/wire/long_throw.scene")}
+        for limit, most, code, requests in (
+                ("operations", 100, -32012, [load]),
+                ("unknowns", 20, -32014, [load]),
+                ("samples", 10, -32013, [load, {"method": "sample", "times": [0, 0.5, 1, 1.5]}]),
+                ("message", 2000, -32010, [load]),
+                ("memory", 1000000, -32017, [large])):
+            with self.subTest(limit):
+                with peer.Daemon("optimizer", "stdio", [f"--limit-{limit}", str(most)]) as daemon:
+                    connection = daemon.connect()
+                    self.assertEqual(connection.greet()["limits"][limit], most)
+                    for request in requests:
+                        number = connection.start(**request)
+                        answer = connection.receive_answer()
+                    self.assertIn(answer["id"], (number, None))
+                    self.assertEqual((answer["error"]["code"], answer["error"]["data"]["limit"]), (code, limit))
+
+    def test_an_idle_session_ends_and_a_busy_one_does_not(self):
+        with peer.Daemon("optimizer", "unix", ["--limit-idle", "0.3"]) as daemon:
+            idle, stopped = daemon.connect(), daemon.connect()
+            idle.greet()
+            stopped.greet()
+            stopped.send_raw(b'{"jsonrpc"')
+            for each in (idle, stopped):
+                self.assertEqual([m["error"]["code"] for m in each.rest()], [-32016])
+                each.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

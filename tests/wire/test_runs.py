@@ -1,0 +1,191 @@
+"""Runs: cancelled, edited while they go on, and replayed from their logs."""
+import random
+import statistics
+import time
+import unittest
+
+from tests.wire import peer
+
+
+def without_seconds(motion):
+    return {name: value for name, value in motion.items() if name != "seconds"}
+
+
+def without_words(motion):
+    """What a run that was stopped and the same number of iterations have in common."""
+    return {name: value for name, value in without_seconds(motion).items() if name not in ("status", "message")}
+
+
+class Session:
+    """A peer with the throw loaded that keeps what replays: every answer's log."""
+
+    def __init__(self, daemon):
+        self.peer = daemon.connect()
+        self.peer.greet()
+        self.log = []
+
+    def load(self, problem):
+        return self.peer.ask("problem/load", problem=problem)
+
+    def note(self, answer):
+        self.log += answer["result"]["log"]
+        return answer["result"]
+
+    def do(self, **action):
+        return self.note(self.peer.answer(self.peer.start("action/do", action=action)))
+
+    def motion(self):
+        return self.peer.ask("motion/get")["motion"]
+
+    def wait_for_progress(self, count=1):
+        """Until so many iterates have been shown; the last one."""
+        while True:
+            message = self.peer.receive()
+            if message.get("method") != "$/progress":
+                raise AssertionError(f"the run has ended: {message}")
+            count -= 1
+            if count <= 0:
+                return message["params"]["value"]
+
+
+class Runs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.problem = peer.problem_of("tests/wire/long_throw.scene")
+
+    def replayed(self, log):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            for action in log:
+                session.do(**action)
+            return session.motion()
+
+    def test_a_cancelled_run_answers_with_its_outcome_and_loses_nothing(self):
+        latencies = []
+        for transport in peer.TRANSPORTS:
+            with peer.Daemon("optimizer", transport) as daemon:
+                session = Session(daemon)
+                session.load(self.problem)
+                number = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300})
+                seen = session.wait_for_progress(2)["iteration"]
+                begun = time.monotonic()
+                session.peer.notify("$/cancelRequest", id=number)
+                outcome = session.note(session.peer.answer(number))
+                latencies.append(time.monotonic() - begun)
+                self.assertEqual(outcome["status"], "stopped")
+                self.assertIn("Interrupted", outcome["message"])
+                self.assertGreaterEqual(outcome["iteration"], seen)
+                motion = session.motion()
+                self.assertEqual(motion["iterations"], outcome["iteration"])
+                self.assertEqual(without_words(self.replayed(session.log)), without_words(motion))
+        print(f"cancelled: answered after {max(latencies) * 1e3:.1f} ms at most", flush=True)
+
+    def test_requests_that_wait_are_cancelled_and_answered(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            first = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300})
+            second = session.peer.start("action/do", action={"action": "solve"})
+            session.wait_for_progress()
+            session.peer.notify("$/cancelRequest", id=second)
+            self.assertEqual(session.peer.answer(second)["error"]["code"], -32800)
+            session.peer.notify("$/cancelRequest", id=first)
+            session.peer.notify("$/cancelRequest", id=first)
+            session.peer.notify("$/cancelRequest", id="never asked")
+            self.assertEqual(session.peer.answer(first)["result"]["status"], "stopped")
+
+    def test_edits_during_a_run_take_effect_at_once_and_replay(self):
+        seed = 1994
+        print("seed", seed)
+        chance = random.Random(seed)
+        edits = [lambda: {"action": "set", "constant": "BasketX", "value": chance.uniform(2, 3)},
+                 lambda: {"action": "set", "constant": "release", "value": chance.uniform(0.9, 1.1)},
+                 lambda: {"action": "disable", "name": "calm"},
+                 lambda: {"action": "enable", "name": "calm"},
+                 lambda: {"action": "weight", "name": "calm", "weight": chance.uniform(1e-3, 1e-2)},
+                 lambda: {"action": "bound", "dof": "arm.elbow", "lower": -3, "upper": chance.uniform(1, 3)},
+                 lambda: {"action": "reset"}]
+        latencies, during = [], 0
+        with peer.Daemon("optimizer", "unix") as daemon:
+            for round_ in range(6):
+                session = Session(daemon)
+                session.load(self.problem)
+                run = session.peer.start("action/do", action=chance.choice(
+                    [{"action": "solve"}, {"action": "solve", "tolerance": 1e-6, "iterations": 90},
+                     {"action": "iterate", "iterations": 60}]))
+                for _ in range(4):
+                    shown = session.wait_for_progress(chance.randrange(1, 3))
+                    begun = time.monotonic()
+                    edit = session.note(session.peer.answer(session.peer.start("action/do", action=chance.choice(edits)())))
+                    latencies.append(time.monotonic() - begun)
+                    self.assertGreaterEqual(edit["iteration"], shown["iteration"])
+                    during += edit["log"][0]["action"] in ("iterate", "solve")
+                if round_ % 2:
+                    session.peer.notify("$/cancelRequest", id=run)
+                outcome = session.note(session.peer.answer(run))
+                motion = session.motion()
+                self.assertEqual(motion["iterations"], outcome["iteration"])
+                replayed = self.replayed(session.log)
+                if round_ % 2 == 0:
+                    self.assertEqual(replayed["status"], motion["status"])
+                self.assertEqual(without_words(replayed), without_words(motion), session.log)
+        self.assertGreaterEqual(during, 12)
+        print(f"edits: answered after {statistics.median(latencies) * 1e3:.1f} ms, at most {max(latencies) * 1e3:.1f} ms; "
+              f"{during} of {len(latencies)} split a run")
+
+    def test_the_motion_can_be_asked_for_and_set_during_a_run(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            start = session.motion()
+            run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "iterations": 400})
+            session.wait_for_progress(2)
+            now = session.motion()
+            self.assertEqual(now["status"], "stopped")
+            self.assertIn("Going on", now["message"])
+            self.assertGreater(now["iterations"], 0)
+            values = session.peer.ask("sample", times=[0, 1, 2], expressions=[])
+            self.assertEqual(values, {"times": [0, 1, 2], "values": {}, "poses": {}})
+            back = session.peer.ask("motion/set", motion=start)
+            self.assertEqual(back["iteration"], 0)
+            session.peer.notify("$/cancelRequest", id=run)
+            self.assertEqual(session.peer.answer(run)["result"]["status"], "stopped")
+
+    def test_a_new_problem_ends_the_run_of_the_old_one(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300})
+            session.wait_for_progress()
+            load = session.peer.start("problem/load", problem=self.problem)
+            self.assertEqual(session.peer.answer(run)["result"]["status"], "stopped")
+            self.assertIn("unknowns", session.peer.answer(load)["result"])
+            self.assertEqual(session.motion()["iterations"], 0)
+
+    def test_a_run_holds_up_no_other_session(self):
+        with peer.Daemon("optimizer", "unix") as daemon:
+            busy, other = Session(daemon), Session(daemon)
+            busy.load(self.problem)
+            run = busy.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300})
+            busy.wait_for_progress()
+            other.load(peer.problem_of("examples/double_integrator.scene"))
+            self.assertEqual(other.do(action="solve")["status"], "converged")
+            busy.peer.notify("$/cancelRequest", id=run)
+            self.assertEqual(busy.peer.answer(run)["result"]["status"], "stopped")
+
+    def test_a_checkpoint_continues_to_the_same_bits(self):
+        with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
+            session, later = Session(daemon), Session(another)
+            session.load(self.problem)
+            session.do(action="iterate", iterations=9)
+            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            session.do(action="solve")
+            later.load(self.problem)
+            later.peer.ask("motion/set", motion=checkpoint)
+            later.do(action="solve")
+            self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
+
+
+if __name__ == "__main__":
+    unittest.main()
