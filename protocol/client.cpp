@@ -33,10 +33,13 @@ namespace asio = boost::asio;
 // A daemon that has gone is tried again after so long, then twice as long, and so on.
 constexpr std::chrono::milliseconds first_pause{20};
 constexpr std::chrono::milliseconds longest_pause{2000};
-// ... so often in a row; then it is lost.
+// ... so often in a row without a word of it; then it is lost.
 constexpr int most_failures = 12;
 // A request at which the daemon has ended so often is not sent again: it may be why.
 constexpr int most_tries = 8;
+
+// The exit code of a child in which the program could not be started, as of shells.
+constexpr int cannot_start = 127;
 
 constexpr std::size_t longest_answer = std::size_t{1} << 30;
 
@@ -52,11 +55,11 @@ std::pair<int, pid_t> spawn(const std::vector<std::string>& program) {
   if (child == 0) {
     // It must not outlive us, however we end.
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(127);
+    if (getppid() != parent) _exit(cannot_start);
     dup2(pair[1], STDIN_FILENO);
     dup2(pair[1], STDOUT_FILENO);
     execvp(arguments[0], arguments.data());
-    _exit(127);
+    _exit(cannot_start);
   }
   ::close(pair[1]);
   if (child < 0) {
@@ -153,7 +156,7 @@ class Client::Link {
       const auto& message = history_.messages()[static_cast<std::size_t>(resent_)];
       write(request("0", message.method, message.params));
     } else {
-      failures_ = 0;
+      pause_length_ = first_pause;
       enter(State::ready, "");
       for (auto& [id, asked] : asked_) send(id, asked);
     }
@@ -164,9 +167,12 @@ class Client::Link {
     write(request(std::to_string(id), asked.method, asked.params));
   }
 
-  void retry(const std::string& why) {
+  void retry(std::string why) {
     stream_.reset();
-    bury();
+    if (const int status = bury(); WIFEXITED(status) && WEXITSTATUS(status) == cannot_start) {
+      why = "'" + target_.program.front() + "' cannot be started";
+      failures_ = most_failures;  // and never will
+    }
     if (ending_) return;
     std::vector<int> hopeless;
     for (const auto& [id, asked] : asked_) {
@@ -179,18 +185,21 @@ class Client::Link {
       return;
     }
     enter(State::connecting, why);
-    pause_.expires_after(std::min(longest_pause, first_pause * (1 << (failures_ - 1))));
+    pause_.expires_after(pause_length_);
+    pause_length_ = std::min(longest_pause, 2 * pause_length_);
     pause_.async_wait([this](boost::system::error_code stopped) {
       if (!stopped) connect();
     });
   }
 
-  // Ends and reaps the daemon's process, if there is one.
-  void bury() {
+  // Ends and reaps the daemon's process, if there is one; how it ended.
+  int bury() {
     const pid_t child = process_.exchange(0);
-    if (child == 0) return;
+    if (child == 0) return 0;
     ::kill(child, SIGKILL);
-    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) continue;
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    return status;
   }
 
   void fail(int id, const std::string& why) {
@@ -242,6 +251,7 @@ class Client::Link {
     if (!message.contains("id") || !message["id"].is_number_integer()) return;
     const int id = message["id"].get<int>();
     if (id == 0) {
+      failures_ = 0;
       ++resent_;
       return resend();
     }
@@ -279,6 +289,7 @@ class Client::Link {
   bool writing_ = false, ending_ = false;
   int generation_ = 0;  // of streams: what an older one calls back with is stale
   int resent_ = 0, failures_ = 0;
+  std::chrono::milliseconds pause_length_ = first_pause;
   State state_ = State::lost;
   std::map<int, Asked> asked_;
   History history_;

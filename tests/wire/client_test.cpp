@@ -56,7 +56,7 @@ keyframe 2: arm.swing = 2
 Json problem() {
   static const Json it = [] {
     Client compiler(started("symbolic"), {});
-    return result(compiler, "scene/compile", {{"text", scene}})["problem"];
+    return result(compiler, "scene/compile", {{"text", scene}}).at("problem");
   }();
   return it;
 }
@@ -74,8 +74,8 @@ Json motion_of_a_session(Client& client) {
     act({{"action", "iterate"}, {"iterations", 7}});
     act({{"action", "solve"}});
   }
-  Json motion = result(client, "motion/get")["motion"];
-  motion.erase("seconds");
+  Json motion = result(client, "motion/get");
+  if (motion.contains("motion")) motion["motion"].erase("seconds");
   return motion;
 }
 
@@ -110,33 +110,28 @@ TEST(Client, EndsItsDaemon) {
   EXPECT_NE(kill(process, 0), 0);
 }
 
-// SPACETIME_KILLS sets how many (25 unless said; the long test asks for 200).
+// SPACETIME_KILLS sets how many (12 unless said; the long test asks for 200).
 TEST(Client, EndsWithTheSameMotionHoweverOftenItsDaemonIsKilled) {
   const char* asked = std::getenv("SPACETIME_KILLS");
-  const int kills = asked ? std::atoi(asked) : 25;
+  const int kills = asked ? std::atoi(asked) : 12;
   Client undisturbed(started("optimizer"), {});
+  const auto begun = std::chrono::steady_clock::now();
   const Json expected = motion_of_a_session(undisturbed);
-  EXPECT_EQ(expected["status"], "converged");
+  const std::chrono::duration<double> session = std::chrono::steady_clock::now() - begun;
+  EXPECT_EQ(expected["motion"]["status"], "converged");
 
   Client client(started("optimizer"), {});
   std::atomic<int> killed = 0;
-  std::atomic<bool> over = false;
-  std::thread killer([&] {
-    std::mt19937 random(94);  // moments differ from run to run all the same
-    while (!over && killed < kills) {
-      std::this_thread::sleep_for(std::chrono::microseconds(random() % 60'000));
+  const std::jthread killer([&](const std::stop_token& over) {
+    std::mt19937 random(94);                              // moments differ from run to run all the same
+    std::uniform_real_distribution<double> moment(0, 4);  // sessions: some are cut short, some are not
+    while (!over.stop_requested() && killed < kills) {
+      std::this_thread::sleep_for(moment(random) * session);
       const int process = client.process();
       if (process != 0 && kill(process, SIGKILL) == 0) ++killed;
     }
   });
-  int sessions = 0;
-  while (killed < kills) {
-    EXPECT_EQ(motion_of_a_session(client), expected);
-    ++sessions;
-  }
-  over = true;
-  killer.join();
-  RecordProperty("sessions", sessions);
+  while (killed < kills && !HasFailure()) EXPECT_EQ(motion_of_a_session(client), expected);
   EXPECT_EQ(motion_of_a_session(client), expected);
 }
 
