@@ -53,8 +53,8 @@ struct Snapshot {
       write_measure(to, "objective", record.objective);
       write_measure(to, "violation", record.violation);
       write_measure(to, "stationarity", record.stationarity);
-      to.member("step", record.step);
-      to.member("shift", record.shift);
+      write_measure(to, "step", record.step);
+      write_measure(to, "shift", record.shift);
       to.member("seconds", record.seconds);
       to.key("dofs");
       const bool same = shown.run == run && shown.dofs.size() == dofs.size();

@@ -1,7 +1,10 @@
 #include "protocol/connection.h"
 
+#include <algorithm>
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
+
+#include "common/diagnostic.h"
 
 namespace spacetime::protocol {
 namespace {
@@ -13,6 +16,7 @@ constexpr std::chrono::microseconds between_progress{1'000'000 / 120};
 constexpr std::size_t most_unsent_bytes = std::size_t{4} << 20;
 
 constexpr std::chrono::milliseconds look_again{10};  // where reading waits for room
+constexpr std::chrono::seconds stall_patience{60};   // for the next byte of a message that has begun
 constexpr std::chrono::seconds refusal_patience{5};  // for a peer that has no session to say something and go
 
 }  // namespace
@@ -27,8 +31,9 @@ Connection::Connection(boost::asio::io_context& context, std::unique_ptr<Stream>
       resume_(context),
       pace_(context),
       watch_(context),
-      last_heard_(Clock::now()),
-      last_written_(last_heard_) {
+      last_message_(Clock::now()),
+      last_byte_(last_message_),
+      last_written_(last_message_) {
   if (service) conversation_.emplace(*service, allowance, *this);
 }
 
@@ -84,10 +89,11 @@ bool Connection::too_much_waits() const {
 }
 
 void Connection::take(std::string_view bytes) {
+  last_byte_ = Clock::now();
   reader_.add(bytes);
   while (auto frame = reader_.next()) {
     if (reading_ends_) return;
-    last_heard_ = Clock::now();
+    last_message_ = Clock::now();
     reading_ends_ = frame->ends;
     if (!conversation_) return refuse(*frame);
     if (events_.passed) events_.passed(frame->text, true);
@@ -188,7 +194,12 @@ void Connection::write() {
     return;
   }
   if (!next.write) return;
-  const std::string message = next.write();
+  std::string message;
+  try {
+    message = next.write();
+  } catch (const InputError&) {  // progress with numbers that no message can hold
+    return write();
+  }
   if (events_.passed) events_.passed(message, false);
   // Before the peer's first byte its framing is not known; only an end without any message comes so early.
   outgoing_ = framed(message, reader_.framing());
@@ -212,19 +223,26 @@ void Connection::written(boost::system::error_code error) {
   write();
 }
 
-// Ends a connection on which nothing has happened for too long.
+// Whether the peer has had nothing to say for too long, or has stopped inside a message.
+bool Connection::is_idle(Clock::time_point now) const {
+  if (reading_ends_) return false;
+  if (!conversation_) return now - last_message_ > refusal_patience;
+  if (conversation_->busy()) return false;
+  const std::chrono::duration<double> allowed(allowance_.idle);
+  return now - last_message_ > allowed || (reader_.inside() && now - last_byte_ > stall_patience);
+}
+
+// Ends a connection on which nothing has happened for too long, now and then.
 void Connection::watch() {
-  const std::chrono::duration<double> idle =
-      conversation_ ? std::chrono::duration<double>(allowance_.idle) : std::chrono::duration<double>(refusal_patience);
-  watch_.expires_after(std::min(std::chrono::duration_cast<Clock::duration>(idle / 2 + look_again),
-                                Clock::duration(std::chrono::seconds(10))));
-  watch_.async_wait([self = shared_from_this(), idle](boost::system::error_code stopped) {
+  const auto soon = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(allowance_.idle / 2));
+  watch_.expires_after(std::clamp<Clock::duration>(soon, look_again, refusal_patience));
+  watch_.async_wait([self = shared_from_this()](boost::system::error_code stopped) {
     if (stopped || self->gone_) return;
     const auto now = Clock::now();
-    if (self->writing_) {
-      if (now - self->last_written_ > idle) return self->cut();
-    } else if (now - self->last_heard_ > idle && !self->reading_ends_ &&
-               !(self->conversation_ && self->conversation_->busy())) {
+    if (self->writing_ && now - self->last_written_ > std::chrono::duration<double>(self->allowance_.idle)) {
+      return self->cut();
+    }
+    if (self->is_idle(now)) {
       self->send(answer(std::nullopt, beyond("idle", self->allowance_, self->allowance_.idle)));
       return self->finish();
     }

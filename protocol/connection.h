@@ -55,6 +55,7 @@ class Connection final : public Outlet, public std::enable_shared_from_this<Conn
   void write();
   void written(boost::system::error_code error);
   void watch();
+  bool is_idle(Clock::time_point now) const;
 
   boost::asio::io_context& context_;
   std::unique_ptr<Stream> stream_;
@@ -64,7 +65,7 @@ class Connection final : public Outlet, public std::enable_shared_from_this<Conn
   boost::asio::steady_timer resume_, pace_, watch_;
   std::array<char, 1 << 16> block_{};
   std::string outgoing_;
-  Clock::time_point last_heard_, last_progress_, last_written_;
+  Clock::time_point last_message_, last_byte_, last_progress_, last_written_;
   bool writing_ = false, broken_ = false, gone_ = false, reading_ends_ = false;
 
   mutable std::mutex mutex_;  // of what follows

@@ -32,6 +32,7 @@ class FrameReader {
   void add(std::string_view bytes) { buffer_.append(bytes); }
   std::optional<Frame> next();  // nothing: more bytes are needed
 
+  bool inside() const { return begin_ < buffer_.size(); }  // a message has begun and is not complete
   Framing framing() const { return framing_; }
 
  private:

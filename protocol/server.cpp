@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <system_error>
 
 #include "common/diagnostic.h"
 #include "protocol/connection.h"
@@ -104,10 +105,15 @@ class Server {
     };
     log_->debug("session {} {}", number, room ? "begins" : "is one too many");
     sessions_ += room ? 1 : 0;
-    const auto peer = std::make_shared<Connection>(context_, std::move(stream), room ? &service_ : nullptr,
-                                                   options_.allowance, std::move(events));
-    peers_.emplace(number, peer);
-    peer->start();
+    try {
+      const auto peer = std::make_shared<Connection>(context_, std::move(stream), room ? &service_ : nullptr,
+                                                     options_.allowance, std::move(events));
+      peers_.emplace(number, peer);
+      peer->start();
+    } catch (const std::system_error& error) {  // no more threads
+      log_->warn("session {} cannot begin: {}", number, error.what());
+      sessions_ -= room ? 1 : 0;
+    }
   }
 
   // No new peers; those that are there get the answers that are ready.
