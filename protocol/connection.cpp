@@ -186,7 +186,7 @@ void Connection::write() {
   }
   if (over) {
     gone_ = true;
-    stream_->close();
+    broken_ ? stream_->close() : stream_->part();
     watch_.cancel();
     resume_.cancel();
     pace_.cancel();
@@ -229,7 +229,8 @@ bool Connection::is_idle(Clock::time_point now) const {
   if (!conversation_) return now - last_message_ > refusal_patience;
   if (conversation_->busy()) return false;
   const std::chrono::duration<double> allowed(allowance_.idle);
-  return now - last_message_ > allowed || (reader_.inside() && now - last_byte_ > stall_patience);
+  return now - std::max(last_message_, last_written_) > allowed ||
+         (reader_.inside() && now - last_byte_ > stall_patience);
 }
 
 // Ends a connection on which nothing has happened for too long, now and then.

@@ -27,6 +27,10 @@ using TlsSocket = asio::ssl::stream<Socket>;
 
 // A peer that has connected but does not finish the TLS handshake is dropped after so long.
 constexpr std::chrono::seconds handshake_patience{10};
+// A socket that is closed while its peer goes on sending would take back what it has written last (TCP resets the
+// connection), so it reads on for so long.
+constexpr std::chrono::milliseconds parting{500};
+
 // So many may be in their handshakes at one time; others wait in the kernel's queue.
 constexpr int most_handshakes = 32;
 
@@ -35,6 +39,40 @@ void write_to(Lowest& socket, std::string_view bytes, Stream::Done done) {
   asio::async_write(socket, asio::buffer(bytes.data(), bytes.size()), std::move(done));
 }
 
+void close_now(Socket& socket) {
+  boost::system::error_code ignored;
+  socket.shutdown(Socket::shutdown_both, ignored);
+  socket.close(ignored);
+}
+
+// A socket that has said everything and listens, without interest, until its peer has ended or time is up.
+class Parting : public std::enable_shared_from_this<Parting> {
+ public:
+  explicit Parting(Socket socket) : socket_(std::move(socket)), timer_(socket_.get_executor(), parting) {}
+  void begin() {
+    boost::system::error_code ignored;
+    socket_.shutdown(Socket::shutdown_send, ignored);
+    timer_.async_wait([self = shared_from_this()](boost::system::error_code) { close_now(self->socket_); });
+    listen_on();
+  }
+
+ private:
+  void listen_on() {
+    socket_.async_read_some(asio::buffer(block_),
+                            [self = shared_from_this()](boost::system::error_code error, std::size_t) {
+                              if (error) {
+                                self->timer_.cancel();
+                              } else {
+                                self->listen_on();
+                              }
+                            });
+  }
+
+  Socket socket_;
+  asio::steady_timer timer_;
+  std::array<char, 4096> block_{};
+};
+
 class SocketStream final : public Stream {
  public:
   explicit SocketStream(Socket socket) : socket_(std::move(socket)) {}
@@ -42,11 +80,8 @@ class SocketStream final : public Stream {
     socket_.async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
   }
   void write_all(std::string_view bytes, Done done) override { write_to(socket_, bytes, std::move(done)); }
-  void close() override {
-    boost::system::error_code ignored;
-    socket_.shutdown(Socket::shutdown_both, ignored);
-    socket_.close(ignored);
-  }
+  void close() override { close_now(socket_); }
+  void part() override { std::make_shared<Parting>(std::move(socket_))->begin(); }
 
  private:
   Socket socket_;
@@ -60,12 +95,9 @@ class TlsStream final : public Stream {
     socket_->async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
   }
   void write_all(std::string_view bytes, Done done) override { write_to(*socket_, bytes, std::move(done)); }
-  void close() override {
-    // Without TLS's own farewell, which would wait for the peer: every message carries its length or its end.
-    boost::system::error_code ignored;
-    socket_->lowest_layer().shutdown(Socket::shutdown_both, ignored);
-    socket_->lowest_layer().close(ignored);
-  }
+  // Both without TLS's own farewell, which would wait for the peer: every message carries its length or its end.
+  void close() override { close_now(socket_->next_layer()); }
+  void part() override { std::make_shared<Parting>(std::move(socket_->next_layer()))->begin(); }
 
  private:
   std::shared_ptr<asio::ssl::context> context_;
@@ -119,6 +151,7 @@ class StandardStream final : public Stream {
   void read_some(std::span<char> into, Done done) override { socket_->read_some(into, std::move(done)); }
   void write_all(std::string_view bytes, Done done) override { socket_->write_all(bytes, std::move(done)); }
   void close() override { socket_->close(); }
+  void part() override { socket_->close(); }
 
  private:
   std::unique_ptr<SocketStream> socket_;

@@ -98,6 +98,16 @@ class Hostile(unittest.TestCase):
             self.assertEqual((error["code"], error["data"]["most"]), (-32010, 4000000))
             self.assertEqual(claimer.rest(), [])
 
+    def test_who_goes_on_sending_still_hears_why_it_is_refused(self):
+        for transport in ("unix", "tcp", "tls"):
+            with peer.Daemon("optimizer", transport, OPTIONS) as daemon:
+                for _ in range(10):
+                    with daemon.connect("headers") as claimer:
+                        with contextlib.suppress(OSError):
+                            claimer.send_raw(b"Content-Length: 10000000000\r\n\r\n" + b"x" * 1_000_000)
+                        self.assertEqual(claimer.receive()["error"]["code"], -32010)
+                self.assertEqual(daemon.end(), 0)
+
     def test_ten_gigabytes_in_one_line(self):
         with self.daemon.connect() as writer:
             writer.greet()
