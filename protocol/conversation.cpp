@@ -1,6 +1,7 @@
 #include "protocol/conversation.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 
 #include "common/diagnostic.h"
@@ -92,12 +93,9 @@ std::optional<Request> Conversation::understood(std::string_view text) {
     if (request.method.empty()) return std::nullopt;
     note(request);
     return request;
-  } catch (const Error& error) {
-    outlet_.send(answer(id, error));
-  } catch (const AccountExceeded&) {
-    outlet_.send(answer(id, beyond_memory()));
-  } catch (const std::bad_alloc&) {
-    outlet_.send(answer(id, Error(Code::out_of_memory, "the message needs more memory than there is")));
+  } catch (...) {
+    const Unpaid unpaid;
+    outlet_.send(answer(id, present_error()));
   }
   return std::nullopt;
 }
@@ -106,7 +104,8 @@ std::optional<Request> Conversation::understood(std::string_view text) {
 void Conversation::note(const Request& request) {
   if (!renews(request.method) || !request.params.contains("revision")) return;
   const auto& revision = request.params["revision"];
-  if (!revision.is_number_integer()) return;  // refused in its turn
+  if (!revision.is_number_integer() || revision.get<double>() > std::numeric_limits<int>::max())
+    return;  // refused later
   const std::lock_guard lock(mutex_);
   newest_ = std::max(newest_.value_or(0), revision.get<int>());
 }
@@ -225,6 +224,7 @@ bool Conversation::read_front(std::unique_lock<std::mutex>& lock) {
   if (waiting_.empty()) return false;  // hung up; nobody else takes away what is not parsed
   const bool cancelled = request && request->id && cancelled_.erase(*request->id) > 0;
   if (!request || cancelled) {
+    const Unpaid unpaid;
     if (cancelled) outlet_.send(answer(request->id, before_its_turn()));
     take_front();
     return false;
@@ -244,9 +244,6 @@ Request Conversation::take_front() {
 
 // Answers one request; `running` is what is worked on meanwhile, if anything.
 void Conversation::serve(Request request, Work* running) {
-  const auto refuse = [&](const Error& error) {
-    if (request.id) outlet_.send(answer(request.id, error));
-  };
   try {
     if (request.method == "rpc.discover") {
       if (request.id) outlet_.send(answer(request.id, service_.description));
@@ -260,18 +257,28 @@ void Conversation::serve(Request request, Work* running) {
     });
     if (running && work.revision && renews(request.method)) running->revision = work.revision;
     if (request.id) outlet_.send(answer(request.id, result.take()));
+  } catch (...) {
+    const Unpaid unpaid;
+    if (request.id) outlet_.send(answer(request.id, present_error()));
+  }
+}
+
+// The exception that is being handled, as the peer is told of it.
+Error Conversation::present_error() const {
+  try {
+    throw;
   } catch (const Error& error) {
-    refuse(error);
+    return error;
   } catch (const DocumentError& error) {
-    refuse({Code::bad_parameters, error.what(), path_data(error.path())});
+    return {Code::bad_parameters, error.what(), path_data(error.path())};
   } catch (const InputError& error) {
-    refuse({Code::refused, error.what()});
+    return {Code::refused, error.what()};
   } catch (const AccountExceeded&) {
-    refuse(beyond_memory());
+    return beyond_memory();
   } catch (const std::bad_alloc&) {
-    refuse({Code::out_of_memory, "this needs more memory than there is: ask for less"});
+    return {Code::out_of_memory, "this needs more memory than there is: ask for less"};
   } catch (const std::exception& error) {
-    refuse({Code::internal, std::string("a mistake of the daemon's own, please report it: ") + error.what()});
+    return {Code::internal, std::string("a mistake of the daemon's own, please report it: ") + error.what()};
   }
 }
 

@@ -58,11 +58,12 @@ class Conversation {
   void note(const Request& request);
   const Method* method_named(std::string_view name) const;
   bool renews(std::string_view name) const;
+  Error present_error() const;
+  Error beyond_memory() const;
 
   // The session's thread.
   void run();
   void serve_all();
-  Error beyond_memory() const;
   bool read_front(std::unique_lock<std::mutex>& lock);
   Request take_front();
   void serve(Request request, Work* running);

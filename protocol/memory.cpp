@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <deque>
 #include <mutex>
+#include <utility>
 
 namespace spacetime::protocol {
 namespace {
@@ -14,7 +15,7 @@ struct alignas(__STDCPP_DEFAULT_NEW_ALIGNMENT__) Tag {
   std::size_t bytes;
 };
 
-// Small allocations may go beyond the limit by so much, so that the error can be told.
+// Small allocations may go beyond the limit by so much: those that a session makes outside of requests.
 constexpr std::ptrdiff_t reserve = 1 << 20;
 constexpr std::size_t small = 4096;
 
@@ -78,6 +79,9 @@ Accounting::~Accounting() {
   const std::lock_guard lock(book().mutex);
   book().closed.push_back(&account_);
 }
+
+Unpaid::Unpaid() : before_(std::exchange(paying, nullptr)) {}
+Unpaid::~Unpaid() { paying = before_; }
 
 }  // namespace spacetime::protocol
 

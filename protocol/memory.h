@@ -32,4 +32,16 @@ class Accounting {
   Account& account_;
 };
 
+// As long as it lives, its thread allocates for nobody: so that whoever is told of an exceeded account is told.
+class Unpaid {
+ public:
+  Unpaid();
+  ~Unpaid();
+  Unpaid(const Unpaid&) = delete;
+  Unpaid& operator=(const Unpaid&) = delete;
+
+ private:
+  Account* before_;
+};
+
 }  // namespace spacetime::protocol
