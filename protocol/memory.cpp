@@ -91,3 +91,17 @@ void operator delete(void* memory) noexcept { spacetime::protocol::release(memor
 void operator delete[](void* memory) noexcept { spacetime::protocol::release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { spacetime::protocol::release(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { spacetime::protocol::release(memory); }
+
+// Sanitizers bring their own of these, which would not know our tags.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return spacetime::protocol::allocate(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t& no_throw) noexcept {
+  return operator new(bytes, no_throw);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept { spacetime::protocol::release(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { spacetime::protocol::release(memory); }
