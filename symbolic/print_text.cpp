@@ -69,13 +69,11 @@ class TextPrinter {
   Text joined(const Reading::Item& item, std::string_view between, Level level, Level left, Level right) const;
   std::string operand(const Reading::Item& item, std::size_t i, Level least) const;
 
-  const Reading& reading_;
   std::vector<Text> texts_;  // by item; of a part its name
   std::vector<std::string> definitions_;
 };
 
-TextPrinter::TextPrinter(const Reading& reading, const std::string& part)
-    : reading_(reading), texts_(reading.items.size()) {
+TextPrinter::TextPrinter(const Reading& reading, const std::string& part) : texts_(reading.items.size()) {
   for (const std::size_t item : reading.order) {
     Text text = made(reading.items[item]);
     if (reading.is_part(item)) {
