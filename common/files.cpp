@@ -27,6 +27,11 @@ std::string read_stream(std::istream& in, const std::string& name) {
   return text;
 }
 
+void write_stream(std::ostream& out, std::string_view text, const std::string& name) {
+  out << text << std::flush;
+  if (!out) throw InputError("cannot write to " + name);
+}
+
 }  // namespace
 
 std::string read_text(const std::string& file) {
@@ -38,23 +43,33 @@ std::string read_text(const std::string& file) {
 }
 
 void write_text(const std::string& file, std::string_view text) {
-  if (file == "-") {
-    std::cout << text << std::flush;
-    if (!std::cout) throw InputError("cannot write to standard output");
-    return;
+  if (file == "-") return write_stream(std::cout, text, "standard output");
+  namespace fs = std::filesystem;
+  const auto refuse = [&](const std::string& why) { throw InputError("cannot write '" + file + "': " + why); };
+  std::error_code error;
+  const fs::file_status there = fs::status(file, error);  // of what a link points to
+  error.clear();  // where there is no such file, that is no mistake; where it cannot be seen, opening it says so
+  if (fs::is_directory(there)) refuse("it is a directory");
+  // A device or a pipe takes what it is given; a file put in its place would take it from everybody.
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    std::ofstream out(file, std::ios::binary);
+    if (!out) refuse(reason());
+    return write_stream(out, text, "'" + file + "'");
   }
-  // A name of its own, so that two programs writing one file do not mix their halves.
-  const std::string beside = file + ".part" + std::to_string(getpid());
+  // Behind a link the file itself is replaced.  Its new content gets a name of its own first, so that two programs that
+  // write one file do not mix their halves.
+  const fs::path target = fs::exists(there) ? fs::canonical(file) : fs::path(file);
+  const fs::path beside = target.string() + ".part" + std::to_string(getpid());
   std::ofstream out(beside, std::ios::binary);
-  if (!out) throw InputError("cannot write '" + beside + "': " + reason());
+  if (!out) refuse(reason());
   out << text << std::flush;
   out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(beside, file, error);
+  if (out && fs::exists(there)) fs::permissions(beside, there.permissions(), error);
+  if (out && !error) fs::rename(beside, target, error);
   if (!out || error) {
     const std::string why = error ? error.message() : reason();
-    std::filesystem::remove(beside, error);
-    throw InputError("cannot write '" + file + "': " + why);
+    fs::remove(beside, error);
+    refuse(why);
   }
 }
 
