@@ -30,7 +30,8 @@ void set_method(Model& model, const SolveAction& action, Solve& out) {
   const auto method = std::find(methods.begin(), methods.end(), action.method->text);
   if (method == methods.end())
     return report(model, action.method->span,
-                  "there is no method " + quoted(action.method->text) + suggestion(action.method->text, methods));
+                  "there is no method " + quoted(action.method->text) +
+                      suggestion(action.method->text, methods, one_of(methods)));
   out.method = static_cast<Solve::Method>(method - methods.begin());
   out.linear_cg = action.conjugate_gradient;
   if (out.linear_cg && out.method != Solve::Method::sqp92)

@@ -58,12 +58,13 @@ Command add_complete(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("complete", "What could be written at a place of a scene, finished or not");
   command->add_option("FILE", options->file, "The scene, or - for standard input")->required();
-  command->add_option("LINE", options->line, "The cursor's line, from 1")->required()->check(CLI::PositiveNumber);
-  command->add_option("COLUMN", options->column, "The column of the character behind it, from 1")
-      ->required()
-      ->check(CLI::PositiveNumber);
+  command->add_option("LINE", options->line, "The cursor's line, from 1")->required();
+  command->add_option("COLUMN", options->column, "The column of the character behind it, from 1")->required();
   command->add_flag("--json", options->json, "Write a JSON document in place of a table");
   return {command, [options] {
+            if (options->line < 1 || options->column < 1)
+              throw InputError("lines and columns are counted from 1: there is no line " +
+                               std::to_string(options->line) + ", column " + std::to_string(options->column));
             const auto all = complete(read_text(options->file), options->line, options->column);
             write_text("-", options->json ? document(all) : table(all));
             return 0;

@@ -72,11 +72,16 @@ int list(Understood& scene) {
   return 0;
 }
 
+void refuse_derivative_of_nothing(const Options& options) {
+  if (options.what.empty() && !options.by.empty())
+    throw InputError("'--by' needs the name of what to differentiate before it");
+}
+
 int run_print(const Options& options) {
+  refuse_derivative_of_nothing(options);
   const auto scene = read_scene(options.file);
   if (!scene) return 1;
   if (options.what.empty()) {
-    if (!options.by.empty()) throw InputError("'--by' needs the name of what to differentiate before it");
     return list(*scene);
   }
   const Answer answer = query(*scene, options.what, options.by);
@@ -133,6 +138,7 @@ std::string json_of_sizes(Understood& scene, const std::vector<Printable>& all, 
 }
 
 int run_count(const Options& options) {
+  refuse_derivative_of_nothing(options);
   const auto scene = read_scene(options.file);
   if (!scene) return 1;
   std::vector<Printable> all;

@@ -49,7 +49,7 @@ void add_force(Model& model, Creature& creature, const ForceDeclaration& declara
     if (!creature.damaged)
       report(model, declaration.point.span,
              quoted(creature.name) + " has no point " + quoted(declaration.point.text) +
-                 suggestion(declaration.point.text, names));
+                 suggestion(declaration.point.text, names, "declare it first, with 'point'"));
     return;
   }
   const PointForce force{point->link, point->position, {}};
@@ -83,7 +83,7 @@ std::optional<int> find_link(Model& model, const Creature& creature, const Name&
   if (!creature.damaged)
     report(model, name.span,
            quoted(creature.name) + " has no link " + quoted(name.text) + " so far" +
-               suggestion(name.text, link_names(creature)));
+               suggestion(name.text, link_names(creature), "declare it first, with 'link', or write 'ground'"));
   return std::nullopt;
 }
 

@@ -69,8 +69,11 @@ std::pair<Value, bool> creature_member(Model& model, int index, int joint, std::
   if (name == "potential")
     return {numbers({potential_energy(model.graph, creature.linkage, frames_of(model, creature))}), true};
   if (creature.damaged) return {Value{}, true};
-  return refused(model, span,
-                 quoted(creature.name) + " has no member " + quoted(name) + suggestion(name, member_names(creature)));
+  return refused(
+      model, span,
+      quoted(creature.name) + " has no member " + quoted(name) +
+          suggestion(name, member_names(creature),
+                     "it has its links, points and degrees of freedom, and q, force, com, kinetic and potential"));
 }
 
 std::vector<std::string> member_names(const Creature& creature) {

@@ -38,7 +38,9 @@ void unknown_function(Model& model, const Node& node) {
   for (const auto& [name, function] : model.functions) names.push_back(name);
   const auto symbol = model.symbols.find(node.text);
   if (symbol == model.symbols.end())
-    report(model, node.mark, "there is no function " + quoted(node.text) + suggestion(node.text, names));
+    report(
+        model, node.mark,
+        "there is no function " + quoted(node.text) + suggestion(node.text, names, "declare it first, with 'define'"));
   else if (symbol->second.kind != Symbol::Kind::lost)
     report(model, node.mark, quoted(node.text) + " is no function: write '*' for a product");
 }

@@ -34,7 +34,9 @@ bool is_constant(Model& model, const Name& name) {
     report(model, name.span, quoted(name.text) + " is no constant, so it cannot be set",
            {{symbol->second.span, "it is declared here"}});
   else
-    report(model, name.span, "there is no constant " + quoted(name.text) + " so far" + suggestion(name.text, names));
+    report(model, name.span,
+           "there is no constant " + quoted(name.text) + " so far" +
+               suggestion(name.text, names, "declare it first, with 'constant'"));
   return false;
 }
 

@@ -53,7 +53,7 @@ class Lexer {
     if (text_.starts_with("\xEF\xBB\xBF")) i_ = 3;
     while (out_.is_text && i_ < text_.size()) step();
     line_end(0);
-    push(TokenKind::end, 0);
+    end();
     return std::move(out_);
   }
 
@@ -79,6 +79,17 @@ class Lexer {
     else
       advance(size);
     ++line_, column_ = 1, line_start_ = true, bad_on_line_ = false;
+  }
+
+  // Right behind the last word: that is where something is missing, however many empty lines follow.
+  void end() {
+    push(TokenKind::end, 0);
+    const auto before = [&](std::size_t back) -> const Token& { return out_.tokens[out_.tokens.size() - back]; };
+    std::size_t back = 2;
+    while (back <= out_.tokens.size() && before(back).kind == TokenKind::line_end) ++back;
+    if (back > out_.tokens.size()) return;
+    const Span last = before(back).span;
+    out_.tokens.back().span = {last.line, last.column + last.length, 1};
   }
 
   void not_text(const std::string& message) {
@@ -273,7 +284,7 @@ Lexed lex(std::string_view text, std::vector<Diagnostic>& diagnostics) { return 
 std::string describe(const Token& token) {
   switch (token.kind) {
     case TokenKind::end:
-      return "the end of the scene";
+      return "the end of the text";
     case TokenKind::line_end:
       return "the end of the line";
     default:

@@ -16,7 +16,9 @@ void unknown(Model& model, const std::string& name, const Span& span) {
     return report(
         model, span,
         quoted(name) + " is used before it is declared" + at_line(later->second) + ": move its declaration up");
-  report(model, span, "unknown name " + quoted(name) + suggestion(name, known_names(model)));
+  report(model, span,
+         "unknown name " + quoted(name) +
+             suggestion(name, known_names(model), "declare it first, for example with 'constant' or 'let'"));
 }
 
 template <class T>
@@ -102,7 +104,8 @@ Named* named_statement(Model& model, const Name& name, bool constraints_only) {
     for (const auto& [known, named] : model.statement_names)
       if (named.is_constraint || !constraints_only) names.push_back(known);
     report(model, name.span,
-           "there is no " + kind + " " + quoted(name.text) + " so far" + suggestion(name.text, names));
+           "there is no " + kind + " " + quoted(name.text) + " so far" +
+               suggestion(name.text, names, "write its name and ':' where it is stated"));
     return nullptr;
   }
   Named& named = found->second;
@@ -146,7 +149,8 @@ std::vector<int> dofs_of(Model& model, const std::vector<Name>& names) {
       std::vector<std::string> dofs;
       for (const auto& [known, index] : model.dof_index) dofs.push_back(known);
       report(model, name.span,
-             "there is no degree of freedom " + quoted(name.text) + " so far" + suggestion(name.text, dofs));
+             "there is no degree of freedom " + quoted(name.text) + " so far" +
+                 suggestion(name.text, dofs, "declare it first, with 'dof' or as a joint"));
     }
   }
   return out;

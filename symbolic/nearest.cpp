@@ -49,9 +49,16 @@ std::string nearest(std::string_view wrong, std::span<const std::string> candida
   return best;
 }
 
-std::string suggestion(std::string_view wrong, std::span<const std::string> candidates) {
+std::string suggestion(std::string_view wrong, std::span<const std::string> candidates, std::string_view otherwise) {
   const std::string best = nearest(wrong, candidates);
-  return best.empty() ? std::string() : ": did you mean " + quoted(best) + "?";
+  return ": " + (best.empty() ? std::string(otherwise) : "did you mean " + quoted(best) + "?");
+}
+
+std::string one_of(std::span<const std::string> candidates) {
+  std::string out = "it is ";
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == candidates.size() ? " or " : ", ") + quoted(candidates[i]);
+  return out;
 }
 
 }  // namespace spacetime::symbolic

@@ -11,7 +11,9 @@ namespace spacetime::symbolic {
 // exchanges of neighbours), or the same but for what stands before its last dot.  Empty where none is near.
 std::string nearest(std::string_view wrong, std::span<const std::string> candidates);
 
-// ": did you mean 'x'?" or nothing.
-std::string suggestion(std::string_view wrong, std::span<const std::string> candidates);
+// ": did you mean 'x'?" or, where nothing is near, ": " and what else to do.
+std::string suggestion(std::string_view wrong, std::span<const std::string> candidates, std::string_view otherwise);
+// "it is 'a', 'b' or 'c'" for a short list.
+std::string one_of(std::span<const std::string> candidates);
 
 }  // namespace spacetime::symbolic

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "symbolic/parse_statement.h"
+#include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {
 namespace {
@@ -90,14 +91,26 @@ LinkDeclaration parse_link(Parsing& p, bool& damaged) {
   return out;
 }
 
+// A link's '}' came too early: one report for all that it left behind.
+void refuse_left_behind(Parsing& p, Target& target) {
+  p.in.fail(p.in.peek().span, quoted(p.in.peek().text) + " can stand only inside 'link { }': is a '}' too early?");
+  target.damaged = true;
+  auto& items = target.creature.items;
+  if (auto* link = items.empty() ? nullptr : std::get_if<LinkDeclaration>(&items.back())) link->damaged = true;
+  if (p.in.skip_left_behind(creature_words)) p.in.go_on();
+}
+
 void parse_item(Parsing& p, void* opaque) {
   auto& target = *static_cast<Target*>(opaque);
   auto& items = target.creature.items;
   const Span span = p.in.peek().span;
+  if (link_word(p.in.peek())) return refuse_left_behind(p, target);
   if (p.in.accept_word("gravity")) {
     items.push_back(GravityDeclaration{parse_sum(p), span});
   } else if (p.in.accept_word("link")) {
     items.push_back(parse_link(p, target.damaged));
+    const bool goes_on = p.in.at(TokenKind::name) && !p.in.peek().line_start;
+    if (goes_on && !p.in.failed()) refuse_left_behind(p, target);
   } else if (p.in.accept_word("point")) {
     PointDeclaration point;
     point.name = parse_name(p, "the point's name");

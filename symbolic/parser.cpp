@@ -19,10 +19,15 @@ void unknown_statement(Parsing& p, const Token& word) {
   if (p.in.peek().kind == TokenKind::equal)
     return p.in.fail(word.span, "a statement begins with what it is: write 'constant " + std::string(word.text) +
                                     " = ...', 'let ...' or 'dof ...'");
+  const auto is_clause = [&](const Word& known) { return known.kind == Word::Kind::clause && known.word == word.text; };
+  if (std::ranges::any_of(vocabulary(), is_clause))
+    return p.in.fail(word.span,
+                     quoted(word.text) + " does not begin a statement: write it on the line of the one it belongs to");
   std::vector<std::string> words;
   for (const Word& known : vocabulary())
     if (begins_statement(known.word)) words.emplace_back(known.word);
-  p.in.fail(word.span, "there is no statement " + quoted(word.text) + suggestion(word.text, words));
+  p.in.fail(word.span, "there is no statement " + quoted(word.text) +
+                           suggestion(word.text, words, "begin with a word such as 'dof', 'constrain' or 'solve'"));
 }
 
 // What a statement would declare if it turns out to be damaged: the word behind the first, where that says so or is

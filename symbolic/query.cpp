@@ -196,7 +196,7 @@ Answer expression(Understood& scene, std::string_view what) {
 
 // A name that nothing has, in the scene or among its statements.
 bool is_unknown(const Model& model, std::string_view what) {
-  const bool is_name = !what.empty() && std::ranges::all_of(what, is_part_of_name);
+  const bool is_name = !what.empty() && what.front() != ' ' && std::ranges::all_of(what, is_part_of_name);
   const std::string_view head = what.substr(0, what.find_first_of(".' "));
   return is_name && std::isdigit(static_cast<unsigned char>(what.front())) == 0 && !is_reserved(head) &&
          !model.symbols.contains(head);
@@ -205,7 +205,8 @@ bool is_unknown(const Model& model, std::string_view what) {
 std::string unknown(const Model& model, std::string_view what) {
   std::vector<std::string> names = known_names(model);
   for (const Stated& candidate : model.stated) names.push_back(candidate.name);
-  return "the scene has no " + quoted(what) + suggestion(what, names);
+  return "the scene has no " + quoted(what) +
+         suggestion(what, names, "ask for a name that it declares, or for an expression");
 }
 
 // The input that a derivative is taken by.

@@ -108,6 +108,21 @@ bool TokenReader::skip_to(TokenKind kind) {
   return false;
 }
 
+bool TokenReader::skip_left_behind(std::span<const std::string_view> words) {
+  constexpr std::size_t farthest = 200;  // tokens: more than a link is made of
+  std::size_t i = i_;
+  for (; tokens_[i].kind != TokenKind::right_brace; ++i)
+    if (tokens_[i].kind == TokenKind::end || tokens_[i].kind == TokenKind::left_brace || i - i_ > farthest)
+      return false;
+  std::size_t behind = i + 1;
+  while (tokens_[behind].kind == TokenKind::line_end || tokens_[behind].kind == TokenKind::semicolon) ++behind;
+  const Token& next = tokens_[behind];
+  const bool is_item = next.kind == TokenKind::name && std::ranges::find(words, next.text) != words.end();
+  if (!is_item && next.kind != TokenKind::right_brace) return false;
+  i_ = i + 1;
+  return true;
+}
+
 void TokenReader::recover() {
   brackets_ = 0;
   failed_ = false;

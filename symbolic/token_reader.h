@@ -2,6 +2,7 @@
 // until the statement loop has found the next place to go on from.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,10 @@ class TokenReader {
 
   // On to the next token of this kind in the same statement's line; false, and nothing done, where there is none.
   bool skip_to(TokenKind kind);
+
+  // Where a `}` came too early, what it left behind stands here: on behind the `}` that was to come, if that is near
+  // and one of `words` or another `}` follows it; else false, and nothing done.
+  bool skip_left_behind(std::span<const std::string_view> words);
 
   // After a mistake: on to the next separator outside brackets, to the `}` of the block this is in, or to the
   // beginning of a statement, and ready to report again.

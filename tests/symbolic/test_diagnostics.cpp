@@ -54,8 +54,11 @@ TEST(Diagnostics, Text) {
            {head + "}", 4, 1, "found '}'"},
            {head + "let y = (x + 1\nconstrain x = 0 at 0", 5, 1, "expected ',' or ')', found 'constrain'"},
            {head + "let y = (x + 1]", 4, 15, "expected ',' or ')'"},
+           {head + "let y = x +", 4, 12, "expected a value, found the end of the text"},
+           {head + "let y = (x\n\n# more\n", 4, 11, "expected ',' or ')', found the end of the text"},
            {head + "let y = ()", 4, 9, "empty parentheses"},
            {head + "let y = [1, 2]", 4, 9, "a list in [ ] cannot stand here"},
+           {head + "constrain x = 0\n  at 0, 1", 5, 3, "'at' does not begin a statement: write it on the line"},
            {head + "constrian x = 0 at 0", 4, 1, "did you mean 'constrain'?"},
            {head + "x = 3", 4, 1, "a statement begins with what it is"},
            {head + "let h = x ; let k = h +* 3 ; let l = k", 4, 24, "expected a value, found '*'"}})
@@ -65,6 +68,7 @@ TEST(Diagnostics, Text) {
 TEST(Diagnostics, Names) {
   for (const Wrong& wrong : std::vector<Wrong>{
            {head + "minimize integral(xx)", 4, 19, "unknown name 'xx': did you mean 'x'?"},
+           {head + "minimize integral(speed)", 4, 19, "unknown name 'speed': declare it first"},
            {head + "constant gravity = 9.81\nlet y = gravty*x", 5, 9, "did you mean 'gravity'?"},
            {head + "constant gravity = 9.81\nlet y = GRAVITY*x\nlet z = GRAVITY", 5, 9, "did you mean 'gravity'?"},
            {head + "creature arm { link l { revolute elbow; a 1 } }\nlet y = elbow", 5, 9, "did you mean 'arm.elbow'?"},
@@ -430,8 +434,12 @@ TEST(Diagnostics, Creatures) {
             "expected '}' to close 'creature arm {'"},
            {arm(link + "}\nlink two { fixed; a 1 }\npoint hand on two (0, 0, 0)", "let y = arm.hand.x"), 6, 1,
             "is a '}' too early?"},
+           {arm("link one { revolute q1 } a 1; mass 1; rod }\nlink two { revolute q2; a 1 }"), 4, 26,
+            "'a' can stand only inside 'link { }'"},
+           {arm("link one { a 1 }\nrevolute q1\nmass 1 }\npoint hand on one (0, 0, 0)", "let y = arm.q1"), 5, 1,
+            "'revolute' can stand only inside 'link { }': is a '}' too early?"},
+           {arm(link + "mass 1"), 5, 1, "'mass' can stand only inside 'link { }'"},
            {arm("link one { revolute q1; a 1; mass 1..; rod }"), 4, 35, "is not a number"},
-
            {arm(link + "link two point { fixed; a 1 }"), 5, 10, "expected '{', found 'point'"}})
     expect_one(wrong);
 }
