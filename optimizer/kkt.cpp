@@ -141,9 +141,13 @@ std::optional<Eigen::VectorXd> Kkt::least_squares_multipliers(const Linearisatio
   return solve(right);
 }
 
-bool Kkt::factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, double damping) {
+Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian) const {
+  return row_sizes(jacobian, Eigen::VectorXd::Ones(jacobian.size()));
+}
+
+bool Kkt::factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, const Eigen::VectorXd& sizes,
+                             double damping) {
   exact_ = linear.jacobian;
-  const Eigen::VectorXd sizes = row_sizes(exact_, Eigen::VectorXd::Ones(exact_.size()));
   for (int k = 0; k < exact_.size(); ++k) {
     // A row that is not wanted takes no part: so compliant that it asks nothing.
     exact_.add(k, k, role_[k] == Role::unknown ? 1 : wanted[k] != 0 ? -damping * sizes[k] : -1e30);

@@ -36,9 +36,13 @@ class Kkt {
   std::optional<Step> step(const Linearisation& linear, const Eigen::VectorXd& diagonal, const Eigen::VectorXd& right,
                            double hint);
 
-  // Factors for a step to feasibility alone: the smallest change of the unknowns that, with E = damping * (row's
-  // size), reduces c in the rows `wanted` (nonzero there).  False where it cannot be factored.
-  bool factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, double damping);
+  // The size A A^T of each row, with a floor: its square root is what turns a violation into a change of the unknowns.
+  Eigen::VectorXd row_sizes(const BorderedMatrix& jacobian) const;
+
+  // Factors for a step to feasibility alone: the smallest change of the unknowns that, with E = damping * sizes,
+  // reduces c in the rows `wanted` (nonzero there).  False where it cannot be factored.
+  bool factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, const Eigen::VectorXd& sizes,
+                          double damping);
 
   // Solves with what was factored last, refined against the matrix without its vanishing regularisation.  Nothing where
   // the residual stays large.

@@ -53,6 +53,7 @@ struct NewtonState {
   double radius = 0;          // limit on the change of a coefficient while the model does not hold
   double restore_from = 0;    // while the violation alone is reduced: its sum where that began
   double damping = 0;         // of those steps
+  Eigen::VectorXd sizes;      // of rows, at the last of those steps: violations are compared over their square roots
   int iterations = 0;
 
   double step = 0, shift_used = 0;  // of the last step: largest change of a coefficient, correction
@@ -112,6 +113,7 @@ class Newton {
   Barrier moved(const NewtonState& state, const Model& model, double length) const;
   StepResult search(NewtonState& state, const Model& model, double tolerance);
   StepResult restore(NewtonState& state, double tolerance);
+  Eigen::VectorXd sizes_of_statements(const NewtonState& state) const;
   void accept(NewtonState& state, Trial trial);
 
   const Transcription& t_;

@@ -6,8 +6,24 @@
 #include <cmath>
 
 #include "common/bspline.h"
+#include "optimizer/conflict.h"
+#include "optimizer/dependence.h"
+#include "optimizer/not_finite.h"
 
 namespace spacetime::optimizer {
+namespace {
+
+std::string and_then(const std::string& sentence) { return sentence.empty() ? "" : " " + sentence; }
+
+std::string contradictions(const Transcription& t, const Layout& layout, const NewtonState& state) {
+  std::string text;
+  for (const Conflict& conflict : conflicts(t, layout, state.x, state.values, state.linear.jacobian, state.sizes)) {
+    text += and_then(sentence(conflict));
+  }
+  return text;
+}
+
+}  // namespace
 
 std::vector<Violation> violations(const Transcription& t, std::span<const double> x, const Values& values) {
   std::vector<Violation> result;
@@ -53,20 +69,26 @@ std::string worst_of(const std::vector<Violation>& all) {
   return text;
 }
 
-Outcome outcome_of(StepResult result, const Transcription& t, const NewtonState& state, double tolerance) {
+Outcome outcome_of(StepResult result, const Transcription& t, const Layout& layout, const NewtonState& state,
+                   double tolerance) {
   const std::string worst = worst_of(violations(t, state.x, state.values));
   switch (result) {
     case StepResult::converged:
       return {Status::converged,
-              fmt::format("Hard constraints hold, and the gradient of the Lagrangian vanishes, to {:.3g}.", tolerance)};
-    case StepResult::infeasible:
-      return {Status::infeasible,
-              "No motion near this one satisfies every hard constraint, and no change reduces the violation: " + worst +
-                  ". Relax a constraint, give it a weight, or start from another sketch."};
-    case StepResult::not_finite:
-      return {Status::failed,
-              "The objective or a constraint is not a finite number along this motion. Start from another sketch, or "
-              "keep arguments of sqrt, log and divisions away from zero."};
+              fmt::format("Hard constraints hold, and the gradient of the Lagrangian vanishes, to {:.3g}.", tolerance) +
+                  and_then(sentence(*t.problem, dependences(t, layout, state.linear.jacobian, state.active))) +
+                  and_then(undecided_condition(t, state.x))};
+    case StepResult::infeasible: {
+      std::string why = contradictions(t, layout, state);
+      if (why.empty()) why = " No change reduces the violation: " + worst + ".";
+      return {Status::infeasible, "No motion near this one satisfies every hard constraint." + why +
+                                      " Relax a constraint, give it a weight, or start from another sketch."};
+    }
+    case StepResult::not_finite: {
+      std::string why = why_not_finite(t, state.x, state.multipliers, state.active);
+      if (why.empty()) why = "A sum along this motion is too large to be a number.";
+      return {Status::failed, why + " Start from another sketch, or keep the motion away from there."};
+    }
     case StepResult::singular:
       return {Status::failed,
               "The equations of the step could not be solved however strongly they were regularised; " + worst + "."};

@@ -21,7 +21,8 @@ std::vector<Violation> violations(const Transcription& transcription, std::span<
 // "every hard constraint holds", or which is off most, where and by how much.
 std::string worst_of(const std::vector<Violation>& all);
 
-Outcome outcome_of(StepResult result, const Transcription& transcription, const NewtonState& state, double tolerance);
+Outcome outcome_of(StepResult result, const Transcription& transcription, const Layout& layout,
+                   const NewtonState& state, double tolerance);
 
 // Fills the measures of a motion: objective, terms, violations.
 void measure(const Transcription& transcription, std::span<const double> x, const Values& values, Motion& motion);

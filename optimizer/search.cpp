@@ -180,8 +180,24 @@ void Newton::accept(NewtonState& state, Trial trial) {
   judge(state);
 }
 
+// The mean size of a statement's rows, at each of them.  Not each row's own: the components of a point that is out of
+// reach are to be weighed alike, also where the arm is stretched along one of them.
+Eigen::VectorXd Newton::sizes_of_statements(const NewtonState& state) const {
+  Eigen::VectorXd sizes = kkt_.row_sizes(state.linear.jacobian);
+  for (std::size_t from = 0, to = 0; from < t_.rows.size(); from = to) {
+    double sum = 0;
+    while (to < t_.rows.size() && t_.rows[to].kind == t_.rows[from].kind &&
+           t_.rows[to].statement == t_.rows[from].statement) {
+      sum += sizes[layout_.of_row[to++]];
+    }
+    for (std::size_t r = from; r < to; ++r) sizes[layout_.of_row[r]] = sum / static_cast<double>(to - from);
+  }
+  return sizes;
+}
+
 // One Levenberg-Marquardt step on half the sum of squared violations, until the filter takes the point and the
-// violation has fallen.
+// violation has fallen.  Each is taken over its statement's size: what units a constraint is written in must not decide
+// whether a step is an improvement.
 StepResult Newton::restore(NewtonState& state, double tolerance) {
   const auto violations = [&](const Values& values) {
     Eigen::VectorXd v = Eigen::VectorXd::Zero(layout_.size());
@@ -191,19 +207,23 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
     return v;
   };
   const Eigen::VectorXd violation = violations(state.values);
-  const double squares = violation.squaredNorm();
+  state.sizes = sizes_of_statements(state);
+  const auto squares_of = [&](const Eigen::VectorXd& v) { return v.cwiseAbs2().cwiseQuotient(state.sizes).sum(); };
+  const double squares = squares_of(violation);
   for (; state.damping <= most_damping; state.damping *= 10) {
     std::optional<Eigen::VectorXd> solution;
     {
       const Stopwatch watch(state.seconds.factor);
-      if (kkt_.factor_feasibility(state.linear, violation, state.damping)) solution = kkt_.solve(-violation);
+      if (kkt_.factor_feasibility(state.linear, violation, state.sizes, state.damping))
+        solution = kkt_.solve(-violation);
     }
     if (!solution) continue;
     Eigen::VectorXd d = *solution;
     for (int k = 0; k < layout_.size(); ++k) {
       if (kkt_.is_row(k)) d[k] = 0;
     }
-    const double slope = violation.dot(multiply(state.linear.jacobian, d));  // of half the sum of squares along d
+    // Of half the sum of squares along d.
+    const double slope = violation.cwiseQuotient(state.sizes).dot(multiply(state.linear.jacobian, d));
     if (!(slope < -stationary_violation * squares)) continue;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(layout_.size());
     const double room = limits_.change(state.x, state.barrier, -state.barrier.slack, zero, d).most_primal;
@@ -211,7 +231,7 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
          length /= 2) {
       Trial trial = try_at(state, length * d, state.barrier);
       if (!trial.values.finite) continue;
-      const double remaining = violations(trial.values).squaredNorm();
+      const double remaining = squares_of(violations(trial.values));
       if (!(remaining <= squares + 2 * sufficient_decrease * length * slope)) continue;
       trial.barrier = limits_.start(trial.x, residual_of(trial.values), state.barrier.mu);
       trial.sum = filter_sum(residual_of(trial.values), trial.barrier);

@@ -172,7 +172,7 @@ void Session::iterate(int limit, double tolerance, const Watch& watch) {
   iterate(limit, tolerance, watch, [&](bool) -> std::optional<Outcome> {
     const StepResult result = now_->newton.step(state_, tolerance);
     if (result == StepResult::stepped) return std::nullopt;
-    return outcome_of(result, now_->t(), state_, tolerance);
+    return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
   });
 }
 
@@ -205,7 +205,7 @@ void Session::iterate_by(const Make& make, int limit, double tolerance, const Wa
       const std::string worst = worst_of(violations(now_->t(), state.x, state.values));
       return Outcome{Status::stopped, method->ending(state) + "; " + worst + "."};
     }
-    if (result != StepResult::stepped) return outcome_of(result, now_->t(), state_, tolerance);
+    if (result != StepResult::stepped) return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
     ++state_.iterations;
     return std::nullopt;
   });

@@ -197,13 +197,14 @@ TEST(Kkt, FeasibilityStepsAreTheSmallest) {
   const Eigen::VectorXd hard = s.residual().head(6);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(s.rows());
   right.head(6) = -hard;
-  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), 1e-12));
+  const Eigen::VectorXd sizes = s.kkt.row_sizes(s.linear.jacobian);
+  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), sizes, 1e-12));
   const auto solution = s.kkt.solve(s.rows_placed(right));
   ASSERT_TRUE(solution);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> orthogonal(s.jacobian().topRows(6));
   EXPECT_LE(difference(s.of_unknowns(*solution), orthogonal.solve(-hard)), 1e-8);
   // Damping shortens it.
-  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), 10));
+  ASSERT_TRUE(s.kkt.factor_feasibility(s.linear, s.rows_placed(right), sizes, 10));
   const auto damped = s.kkt.solve(s.rows_placed(right));
   ASSERT_TRUE(damped);
   EXPECT_LT(s.of_unknowns(*damped).norm(), 0.3 * s.of_unknowns(*solution).norm());

@@ -1,0 +1,216 @@
+// Outcomes say why: which constraints contradict one another, which repeat others, which expression is no number.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/optimizer/scenes.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+const std::string ball = "time [0, 1]\ntrajectory bspline spans 16\ndof x = 3\ndof y\n";  // lines 1 to 4
+
+void expect_said(const Motion& motion, Status status, std::initializer_list<const char*> parts) {
+  EXPECT_EQ(motion.status, status) << motion.message;
+  for (const char* part : parts)
+    EXPECT_NE(motion.message.find(part), std::string::npos) << part << "\n" << motion.message;
+}
+void expect_silent(const Motion& motion, std::initializer_list<const char*> parts) {
+  for (const char* part : parts)
+    EXPECT_EQ(motion.message.find(part), std::string::npos) << part << "\n" << motion.message;
+}
+
+TEST(Conflict, BallInTwoPlacesAtOnce) {
+  const Motion motion = run_scene(ball + R"(constrain start: (x, y) = 0 at 0
+constrain left:  x = 0 at 0.5
+constrain slow:  x' <= 20 over [0, 1]
+constrain right: x = 1 at 0.5
+constrain high:  y = 2 at 0.5
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'left' (line 6, at 0.5 s) and 'right' (line 8, at 0.5 s) cannot hold together.",
+               "relax 'left' by 1 or 'right' by 1."});
+  expect_silent(motion, {"'start'", "'slow'", "'high'"});
+}
+
+TEST(Conflict, ThreeOfWhichAnyTwoAreCompatible) {
+  const Motion motion = run_scene(ball + R"(constrain a: x = 0 at 0.5
+constrain b: y = 0 at 0.5
+constrain calm: y = 0 at 0
+constrain c: 10*x + 10*y >= 10 at 0.5
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'a' (line 5, at 0.5 s), 'b' (line 6, at 0.5 s) and 'c' (line 8, at 0.5 s) cannot hold together.",
+               "relax 'a' by 1, 'b' by 1 or 'c' by 10."});
+  expect_silent(motion, {"'calm'"});
+}
+
+// Both inequalities are violated where the least-squares point lies, but they go together.
+TEST(Conflict, InequalitiesAgainstAnEquation) {
+  const Motion motion = run_scene(ball + R"(constrain low: x <= 0 over [0.2, 0.8] every 0.1
+constrain lower: x <= -1 at 0.5
+constrain hit: x = 2 at 0.5
+constrain fine: x = 3 at 0
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'lower' (line 6, at 0.5 s) and 'hit' (line 7, at 0.5 s) cannot hold together. To reconcile them relax "
+               "'lower' by 3 or 'hit' by 3.",
+               "'low' (line 5, at 0.5 s) and 'hit' (line 7, at 0.5 s) cannot hold together. To reconcile them relax "
+               "'low' by 2 or 'hit' by 2."});
+  expect_silent(motion, {"'fine'", "'low' (line 5, at 0.5 s) and 'lower'"});
+}
+
+TEST(Conflict, TwoAtOnceOfDifferentSize) {
+  const Motion motion = run_scene(ball + R"(constrain a: x = 0 at 0.5
+constrain b: x = 1 at 0.5
+constrain c: y' = 2 at 0.25
+constrain d: y' = 2.001 at 0.25
+constrain f: y = 0 at 0.5
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'a' (line 5, at 0.5 s) and 'b' (line 6, at 0.5 s) cannot hold together",
+               "'c' (line 7, at 0.25 s) and 'd' (line 8, at 0.25 s) cannot hold together. To reconcile them relax 'c' "
+               "by 0.001 or 'd' by 0.001."});
+  expect_silent(motion, {"'f'"});
+}
+
+TEST(Conflict, ManyInstancesTogether) {
+  const Motion motion = run_scene(R"(time [0, 1]
+trajectory bspline spans 16
+dof x
+constrain from: x = 0 at 0
+constrain to: x = 3 at 1
+constrain slow: x' <= 2 over [0, 1]
+minimize integral(x''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'from' (line 4, at 0 s), 'to' (line 5, at 1 s) and 'slow' (line 6, at 0, 0.0625, ..., 1 s (17 times)) "
+               "cannot hold together.",
+               "relax 'from' by 1, 'to' by 1 or 'slow' by 1."});
+}
+
+const std::string arm = R"(time [0, 1]
+trajectory bspline spans 16
+creature arm {
+  link upper { revolute shoulder; offset -pi/2; a 0.5; mass 2.0; rod }
+  link fore  { revolute elbow;    a 0.4; mass 1.5; rod }
+  link palm  { revolute wrist;    a 0.2; mass 0.5; rod }
+  point hand on palm (0, 0, 0)
+}
+constrain rest: (arm.q, arm.q') = 0 at 0
+)";
+
+TEST(Conflict, OutOfReach) {
+  const Motion motion = run_scene(
+      arm + "constrain goal: (arm.hand.x, arm.hand.y) = (5, 0) at 1\nminimize integral(dot(arm.q'', arm.q''))\n");
+  expect_said(motion, Status::infeasible,
+              {"'goal' (line 10, at 1 s) cannot hold by itself: no small change brings it nearer than 3.9."});
+  expect_silent(motion, {"'rest'"});
+}
+
+TEST(Conflict, OutOfReachBothWays) {
+  const Motion motion = run_scene(
+      arm + "constrain goal: (arm.hand.x, arm.hand.y) = (3, 4) at 1\nminimize integral(dot(arm.q'', arm.q''))\n");
+  expect_said(motion, Status::infeasible, {"'goal' (line 10, at 1 s) cannot hold by itself"});
+  expect_silent(motion, {"'rest'"});
+}
+
+TEST(Conflict, BoundsAreInTheWay) {
+  const Motion motion = run_scene(
+      "time [0, 1]\ntrajectory bspline spans 16\ndof x in [-1, 1]\ndof y in [-1, 1]\nconstrain hit: x + y = 3 at 0.5\n"
+      "minimize integral(x''^2 + y''^2)\n");
+  expect_said(motion, Status::infeasible,
+              {"'hit' (line 5, at 0.5 s) cannot hold within the bounds of 'x' (line 3) and 'y' (line 4): no small "
+               "change brings it nearer than 1."});
+}
+
+TEST(Conflict, OfAnIntegral) {
+  const Motion motion = run_scene(ball + R"(constrain area: integral(x) = 2
+constrain under: x <= 1 over [0, 1] every 0.02
+constrain other: y = 1 at 0
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(motion, Status::infeasible,
+              {"'area' (line 5) and 'under' (line 6, at", "relax 'area' by 1 or 'under' by 1"});
+  expect_silent(motion, {"'other'"});
+}
+
+TEST(Dependence, TheSameConstraintTwice) {
+  const Motion motion = run_scene(ball + R"(constrain start: (x, x', y) = 0 at 0
+constrain held: x = t over [0.3, 0.6] every 0.1
+constrain again: 2*x = 2*t over [0.3, 0.6] every 0.1
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(
+      motion, Status::converged,
+      {"4 of 11 equations depend on others: 'again' (line 7) repeats 'held' (line 6) at 0.3, 0.4, 0.5 and 0.6 s."});
+}
+
+TEST(Dependence, OfSeveral) {
+  const Motion motion = run_scene(ball + R"(constrain a: x = 1 at 0.5
+constrain b: y = 2 at 0.5
+constrain sum: x + y = 3 at 0.5
+minimize integral(x''^2 + y''^2)
+)");
+  expect_said(
+      motion, Status::converged,
+      {"1 of 3 equations depends on others: 'sum' (line 7) follows from 'a' (line 5) and 'b' (line 6) at 0.5 s."});
+}
+
+// More instances in a knot span than a cubic has coefficients; close ones are not yet dependent ones.
+TEST(Dependence, OnOtherInstances) {
+  const Motion many =
+      run_scene(ball + "constrain line: x = t over [0, 0.0625] count 6\nminimize integral(x''^2 + y''^2)\n");
+  expect_said(many, Status::converged,
+              {"2 of 6 equations depend on others: 'line' (line 5) follows from its other instances at"});
+  const Motion close = run_scene(ball + "constrain near: x = 1 at 0.5, 0.501\nminimize integral(x''^2 + y''^2)\n");
+  expect_said(close, Status::converged, {});
+  expect_silent(close, {"depend"});
+}
+
+TEST(NotFinite, NamesExpressionStatementAndTime) {
+  const std::string head = "time [0, 1]\ntrajectory bspline spans 8\ndof x = -0.3\nconstant k = 2\n";
+  const auto failed = [&](const std::string& text) { return run_scene(head + text); };
+  expect_said(failed("constrain c: sqrt(x) = 1 at 0.25\n"), Status::failed,
+              {"sqrt(x) is not a number at 0.25 s, in 'c' (line 5): x is -0.3 there."});
+  expect_said(failed("constrain c: k*log(x + 0.3) = 1 at 0.25\n"), Status::failed,
+              {"log(x + 0.3) is beyond every number at 0.25 s, in 'c' (line 5): x + 0.3 is 0 there."});
+  expect_said(failed("minimize o: integral(acos(1.5 + x'))\n"), Status::failed,
+              {"acos(x' + 1.5) is not a number at ", "in 'o' (line 5): x' + 1.5 is 1.5 there."});
+  expect_said(failed("minimize o: at(1/x', 0.5)\n"), Status::failed,
+              {"1/x' is beyond every number at 0.5 s, in 'o' (line 5): x' is 0 there."});
+  expect_said(failed("constrain c: integral(sqrt(x))^2 = 1\n"), Status::failed,
+              {"sqrt(x) is not a number at ", "in an integral of 'c' (line 5): x is -0.3 there."});
+  expect_said(failed("constrain c: exp(1e4*k + x) = 1 over [0, 1] every 0.5 weight 2\n"), Status::failed,
+              {"exp(", "is beyond every number at 0 s, in 'c' (line 5)"});
+  expect_said(failed("constrain c: x = sqrt(x) at 0 when t > 0.5\nminimize integral(x''^2)\n"), Status::converged, {});
+}
+
+TEST(NotFinite, InADerivativeOnly) {
+  const Motion motion = run_scene("time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain c: sqrt(x) = 0 at 0.5\n");
+  expect_said(motion, Status::failed,
+              {"beyond every number at 0.5 s, in the derivative of 'c' (line 4): sqrt(x) is 0 there."});
+}
+
+TEST(NotFinite, WhatIfDoesNotChooseIsNotBlamed) {
+  const Motion motion = run_scene(
+      "time [0, 1]\ntrajectory bspline spans 8\ndof x = -1\n"
+      "constrain c: if(x > 0, sqrt(x), 0) + log(x) = 1 at 0.5\n");
+  expect_said(motion, Status::failed, {"log(x) is not a number at 0.5 s, in 'c' (line 4): x is -1 there."});
+}
+
+TEST(NotFinite, AConditionThatCannotBeDecided) {
+  const Motion motion = run_scene(
+      "time [0, 1]\ntrajectory bspline spans 8\ndof x = -1\nconstrain c: x = 1 at 0.5 when sqrt(x) < 2\n"
+      "minimize integral(x''^2)\n");
+  expect_said(motion, Status::converged,
+              {"sqrt(x) is not a number at 0.5 s, in the condition of 'c' (line 4): x is -1 there. So the condition "
+               "counts as not holding."});
+}
+
+}  // namespace
+}  // namespace spacetime::optimizer
