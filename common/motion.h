@@ -21,11 +21,19 @@ struct Seconds {
   bool operator==(const Seconds&) const = default;
 };
 
+// What a constraint costs: the objective falls by so much for each unit by which the relation's right side is raised.
+struct Multiplier {
+  double value = 0;            // of the instance where it is largest
+  std::optional<double> time;  // of that instance; absent for a constraint without time
+  bool operator==(const Multiplier&) const = default;
+};
+
 struct Violation {
   std::string name;            // of the constraint
   double max = 0;              // in the relation's own units
   std::optional<double> time;  // where the largest is; absent for a constraint without time
   int line = 0;
+  std::optional<Multiplier> multiplier{};  // where the method knows it and constraints can be kept
   bool operator==(const Violation&) const = default;
 };
 

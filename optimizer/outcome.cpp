@@ -124,4 +124,34 @@ void measure(const Transcription& t, std::span<const double> x, const Values& va
   }
 }
 
+void add_multipliers(const Transcription& t, const Layout& layout, const NewtonState& state, Motion& motion) {
+  if (motion.status == Status::infeasible || motion.status == Status::failed) return;
+  if (state.condition != StepResult::stepped) return;
+  const auto add = [&](const std::string& name, const Place& place, double value, double time) {
+    const auto found = std::ranges::find_if(motion.violations, [&](const Violation& violation) {
+      return violation.line == place.line && violation.name == name;
+    });
+    if (found == motion.violations.end() || !std::isfinite(value)) return;
+    auto& multiplier = found->multiplier;
+    if (multiplier && !(std::abs(value) > std::abs(multiplier->value))) return;
+    multiplier = Multiplier{value, std::isnan(time) ? std::nullopt : std::optional(time)};
+  };
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    if (t.rows[r].kind != Row::Kind::hard) continue;
+    const Constraint& constraint = t.problem->constraints[t.rows[r].statement];
+    add(constraint.name, constraint.place, state.multipliers[r], t.rows[r].time);
+  }
+  for (int k = 0; k < t.dofs(); ++k) {
+    const Dof& dof = t.problem->dofs[k];
+    if (!dof.lower && !dof.upper) continue;
+    const auto times = greville(dof.basis);
+    for (int u = t.first[k]; u < t.first[k + 1]; ++u) {
+      const int position = layout.of_unknown[u];
+      if (position < 0) continue;
+      add(dof.name, dof.place, state.barrier.upper_dual[position] - state.barrier.lower_dual[position],
+          times[u - t.origin(k)]);
+    }
+  }
+}
+
 }  // namespace spacetime::optimizer

@@ -27,4 +27,9 @@ Outcome outcome_of(StepResult result, const Transcription& transcription, const 
 // Fills the measures of a motion: objective, terms, violations.
 void measure(const Transcription& transcription, std::span<const double> x, const Values& values, Motion& motion);
 
+// Adds what each constraint and bound costs: its largest multiplier, by name and line.  Only where there are any that
+// mean something: the state is Newton's own, and not infeasible or failed.
+void add_multipliers(const Transcription& transcription, const Layout& layout, const NewtonState& state,
+                     Motion& motion);
+
 }  // namespace spacetime::optimizer

@@ -328,6 +328,7 @@ Motion Session::motion(double tolerance) {
   Workspace workspace;
   const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
   measure(t, x, evaluate(t, x, workspace, active), motion);
+  if (!foreign_) add_multipliers(now_->t(), now_->layout, state_, motion);
   motion.dofs = trajectories();
   motion.parameters = parameters();
   for (const Constant& constant : problem.constants) {

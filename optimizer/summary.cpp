@@ -34,6 +34,31 @@ double time_of(const Motion& motion, const std::string& text) {
   return std::strtod(text.c_str(), nullptr);
 }
 
+// One line a constraint: those that are off most, or, where all hold, those that cost most.
+std::string constraints_of(const Motion& motion) {
+  auto all = motion.violations;
+  if (motion.status == Status::converged) {
+    const auto cost = [](const Violation& one) { return one.multiplier ? std::abs(one.multiplier->value) : -1.0; };
+    std::ranges::stable_sort(all, std::ranges::greater{}, cost);
+  } else {
+    std::ranges::stable_sort(all, std::ranges::greater{}, &Violation::max);
+    std::erase_if(all, [](const Violation& one) { return one.max == 0; });
+  }
+  if (all.empty()) return "";
+  const auto at = [](const std::optional<double>& time) {
+    return time ? fmt::format("at {:.4g} s", *time) : std::string();
+  };
+  std::string text = "           constraint        line     off by                multiplier\n";
+  for (std::size_t k = 0; k < std::min(all.size(), violations_shown); ++k) {
+    const Violation& one = all[k];
+    text += fmt::format("           {:16} {:5} {:10.3g} {:12}", one.name, one.line, one.max, at(one.time));
+    if (one.multiplier) text += fmt::format(" {:12.4g} {}", one.multiplier->value, at(one.multiplier->time));
+    text += '\n';
+  }
+  if (all.size() > violations_shown) text += fmt::format("           and {} more\n", all.size() - violations_shown);
+  return text;
+}
+
 }  // namespace
 
 std::string question(const Problem& problem) {
@@ -90,14 +115,7 @@ std::string summary(const Problem& problem, const Motion& motion, const std::vec
     }
   }
   text += fmt::format("\nviolation  {:.2e} at most\n", motion.violation);
-  if (motion.status != Status::converged) {
-    auto worst = motion.violations;
-    std::ranges::stable_sort(worst, std::ranges::greater{}, &Violation::max);
-    for (std::size_t k = 0; k < std::min(worst.size(), violations_shown) && worst[k].max > 0; ++k) {
-      text += fmt::format("           {:.3g} in '{}', line {}", worst[k].max, worst[k].name, worst[k].line);
-      text += worst[k].time ? fmt::format(", at {:.4g} s\n", *worst[k].time) : "\n";
-    }
-  }
+  text += constraints_of(motion);
   for (const Show& show : shows) {
     const double time = time_of(motion, show.time);
     if (!(time >= motion.start && time <= motion.end)) continue;

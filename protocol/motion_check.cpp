@@ -101,6 +101,10 @@ std::optional<Fault> validate_violations(const Motion& motion, bool failed) {
     if (auto fault = validate_name(violation.name, path + "/name")) return fault;
     if (auto fault = measured(violation.max, failed, path + "/max")) return fault;
     if (auto fault = finite(violation.time.value_or(0), path + "/time")) return fault;
+    if (const auto& multiplier = violation.multiplier) {
+      if (auto fault = finite(multiplier->value, path + "/multiplier/value")) return fault;
+      if (auto fault = finite(multiplier->time.value_or(0), path + "/multiplier/time")) return fault;
+    }
     if (violation.line < 0) return Fault{path + "/line", "must not be negative"};
   }
   return std::nullopt;

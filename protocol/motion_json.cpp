@@ -76,26 +76,44 @@ std::map<std::string, Rows> tables_from(const Node& node) {
   return result;
 }
 
+void write_time(Writer& to, const std::optional<double>& time) {
+  to.key("time");
+  if (time) {
+    to.number(*time);
+  } else {
+    to.null();
+  }
+}
+
+std::optional<double> time_from(const Node& node) {
+  return node.is_null() ? std::nullopt : std::optional(node.number());
+}
+
 void write(const Measures& measures, const Violation& violation) {
   auto& to = measures.to;
   to.object([&] {
     to.member("name", violation.name);
     measures.member("max", violation.max);
-    to.key("time");
-    if (violation.time) {
-      to.number(*violation.time);
-    } else {
-      to.null();
-    }
+    write_time(to, violation.time);
     to.member("line", violation.line);
+    if (const auto& multiplier = violation.multiplier) {
+      to.key("multiplier");
+      to.object([&] {
+        to.member("value", multiplier->value);
+        write_time(to, multiplier->time);
+      });
+    }
   });
 }
 
 Violation violation_from(const Node& node) {
-  node.object({"name", "max", "time", "line"});
-  Violation violation{node["name"].string(), measure_from(node["max"]), {}, node["line"].integer()};
-  const auto time = node["time"];
-  if (!time.is_null()) violation.time = time.number();
+  node.object({"name", "max", "time", "line"}, {"multiplier"});
+  Violation violation{node["name"].string(), measure_from(node["max"]), time_from(node["time"]),
+                      node["line"].integer()};
+  if (const auto multiplier = node.find("multiplier")) {
+    multiplier->object({"value", "time"});
+    violation.multiplier = Multiplier{(*multiplier)["value"].number(), time_from((*multiplier)["time"])};
+  }
   return violation;
 }
 

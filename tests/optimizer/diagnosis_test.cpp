@@ -172,6 +172,40 @@ TEST(Dependence, OnOtherInstances) {
   expect_silent(close, {"depend"});
 }
 
+// The double integrator: effort 12 d^2 for a distance d, 12 d^2 + ... by calculus of variations; raising the goal by
+// one unit adds 24, raising the limit on x by one takes off the limit's multiplier.
+TEST(Multipliers, ArePricesOfOneUnit) {
+  const auto solved = [](double goal, double limit) {
+    return run_scene(
+        "time [0, 1]\ntrajectory bspline spans 32\ndof x\nconstrain start: (x, x') = 0 at 0\n"
+        "constrain goal: x = " +
+        std::to_string(goal) +
+        " at 1\nconstrain still: x' = 0 at 1\n"
+        "constrain limit: x' <= " +
+        std::to_string(limit) + " at 0.5\nminimize integral(x''^2)\n");
+  };
+  constexpr double small = 1e-4;
+  const Motion motion = solved(1, 1.4);
+  ASSERT_EQ(motion.violations.size(), 4U);
+  const Violation &goal = motion.violations[1], &limit = motion.violations[3];
+  ASSERT_TRUE(goal.multiplier && limit.multiplier);
+  EXPECT_NEAR(goal.multiplier->value, -(solved(1 + small, 1.4).objective - motion.objective) / small, 1e-2);
+  EXPECT_NEAR(limit.multiplier->value, -(solved(1, 1.4 + small).objective - motion.objective) / small, 1e-2);
+  EXPECT_GT(limit.multiplier->value, 1);
+  EXPECT_EQ(limit.multiplier->time, 0.5);
+}
+
+TEST(Multipliers, OfBoundsAndNoneWhereNothingCanHold) {
+  const Motion bounded = run_scene(
+      "time [0, 1]\ntrajectory bspline spans 16\ndof x in [-1, 0.5]\nconstrain ends: (x, x') = (0, 4) at 0\n"
+      "constrain back: x = 0 at 1\nminimize integral(x''^2)\n");
+  ASSERT_EQ(bounded.violations.size(), 3U);
+  ASSERT_TRUE(bounded.violations[2].multiplier) << bounded.message;
+  EXPECT_GT(bounded.violations[2].multiplier->value, 0.1);
+  const Motion never = run_scene(ball + "constrain a: x = 1 at 0\nconstrain b: x = 2 at 0\n");
+  for (const Violation& violation : never.violations) EXPECT_FALSE(violation.multiplier);
+}
+
 TEST(NotFinite, NamesExpressionStatementAndTime) {
   const std::string head = "time [0, 1]\ntrajectory bspline spans 8\ndof x = -0.3\nconstant k = 2\n";
   const auto failed = [&](const std::string& text) { return run_scene(head + text); };

@@ -260,7 +260,7 @@ Motion rich_motion() {
   motion.objective = 5.596;
   motion.terms = {{"energy", 5.5}, {"calm", 0.096}};
   motion.violation = 3e-12;
-  motion.violations = {{"goal", 3e-12, 1.6, 27}, {"total", 0, {}, 12}};
+  motion.violations = {{"goal", 3e-12, 1.6, 27, Multiplier{-4.5, 1.6}}, {"total", 0, {}, 12}};
   motion.dofs = {{"arm.shoulder", {{0, 0, 0, 0, 0.5, 2, 2, 2, 2}}, {0, 0.1, -0.25, 1e-17, 3}},
                  {"ball.X", {{0, 0, 0, 0, 2, 2, 2, 2}}, {1, 2, 3, 4}}};
   motion.constants = {{"release", 1}, {"g", 9.81}};

@@ -128,7 +128,7 @@ TEST(MotionDocument, HasTheAgreedMembers) {
  "seconds": {"total": 0.25, "evaluate": 0.125, "factor": 0.0625},
  "objective": {"total": 5.596, "terms": {"energy": 5.5, "calm": 0.096}},
  "violation": {"max": 3e-12, "constraints": [
-   {"name": "goal", "max": 3e-12, "time": 1.6, "line": 27},
+   {"name": "goal", "max": 3e-12, "time": 1.6, "line": 27, "multiplier": {"value": -4.5, "time": 1.6}},
    {"name": "total", "max": 0, "time": null, "line": 12}
   ]},
  "dofs": [
