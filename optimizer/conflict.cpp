@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "common/bspline.h"
 #include "optimizer/gradients.h"
@@ -17,6 +18,9 @@ namespace {
 
 // Relations that are violated by less than this fraction of the worst, each over its size, take no part.
 constexpr double innocent = 1e-6;
+// A ridge above this (over the rows' size) forbids even ordinary changes.  It is believed only of a row whose gradient
+// all but vanishes: to hold it alone needs a change of so many times the largest coefficient, or 1 (rad or m).
+constexpr double plain_ridge = 1e-2, reach = 10;
 // Dense algebra: the worst so many violated rows are looked at, and no larger systems.
 constexpr std::size_t most_rows = 200, most_relations = 2000;
 constexpr std::size_t most_conflicts = 4;
@@ -47,6 +51,27 @@ struct Relation {
 
 using Indices = std::vector<int>;
 
+// Of too many, those at the times of the worst: what contradicts one another mostly stands at one time.
+void keep_worst_times(const Transcription& t, std::vector<Relation>& by_violation) {
+  if (by_violation.size() <= most_rows) return;
+  const auto time_of = [&](const Relation& one) {
+    const double time = t.rows[one.row].time;
+    return std::isnan(time) ? std::nullopt : std::optional(time);
+  };
+  std::map<std::optional<double>, std::size_t> count;
+  for (const Relation& one : by_violation) ++count[time_of(one)];
+  std::set<std::optional<double>> kept;
+  std::size_t rows = 0;
+  for (auto one = by_violation.rbegin(); one != by_violation.rend(); ++one) {
+    const auto time = time_of(*one);
+    if (kept.contains(time)) continue;
+    if (rows + count[time] > most_rows) break;
+    rows += count[time];
+    kept.insert(time);
+  }
+  std::erase_if(by_violation, [&](const Relation& one) { return !kept.contains(time_of(one)); });
+}
+
 // The relations that matter at x: the worst violated ones, the functionals' definitions, the bounds of what they touch.
 std::vector<Relation> gather(const Transcription& t, const Layout& layout, std::span<const double> x,
                              const Values& values, const BorderedMatrix& jacobian, const Eigen::VectorXd& sizes) {
@@ -74,7 +99,7 @@ std::vector<Relation> gather(const Transcription& t, const Layout& layout, std::
   std::erase_if(wanted, [&](const Relation& one) { return one.violation() <= innocent * worst; });
   // The worst last: what is left out first is what is violated least.
   std::ranges::stable_sort(wanted, {}, &Relation::violation);
-  if (wanted.size() > most_rows) wanted.erase(wanted.begin(), wanted.end() - most_rows);
+  keep_worst_times(t, wanted);
   std::ranges::move(wanted, std::back_inserter(all));
 
   std::vector<char> touched(layout.size(), 0);
@@ -148,6 +173,14 @@ class System {
   // What is left of violations, each over its size.
   Eigen::VectorXd left(const Indices& chosen, const Indices& giving_way = {}) const {
     return multipliers(chosen, giving_way).cwiseProduct(ridges(giving_way)).cwiseAbs();
+  }
+
+  // Whether the ridge may say that these contradict one another.
+  bool credible(const Indices& chosen, double largest_coefficient) const {
+    if (ridge_ <= plain_ridge * unit_) return true;
+    return std::ranges::any_of(chosen, [&](int i) {
+      return relations_[i].violation() > reach * std::max(1.0, largest_coefficient) * std::sqrt(gram_(i, i));
+    });
   }
 
   // Each is compared with its own violation: one of a thousandth beside one of 1 may be a conflict as well.
@@ -254,7 +287,10 @@ Groups grouped(const Indices& indices, Key key) {
 
 class Finder {
  public:
-  Finder(const Transcription& t, std::vector<Relation> relations) : t_(t), system_(std::move(relations)) {}
+  Finder(const Transcription& t, std::span<const double> x, std::vector<Relation> relations)
+      : t_(t), system_(std::move(relations)) {
+    for (const double one : x) largest_coefficient_ = std::max(largest_coefficient_, std::abs(one));
+  }
 
   std::vector<Conflict> run() const {
     std::vector<Conflict> result;
@@ -266,6 +302,7 @@ class Finder {
                           const double time = row(i).time;
                           return std::pair(row(i).statement, std::isnan(time) ? std::nullopt : std::optional(time));
                         }));
+      if (!system_.credible(joined(groups), largest_coefficient_)) break;
       result.push_back(told(by_statement(joined(groups))));
       rest = without_one_of(rest, groups);
     }
@@ -344,6 +381,7 @@ class Finder {
 
   const Transcription& t_;
   System system_;
+  double largest_coefficient_ = 0;
 };
 
 }  // namespace
@@ -352,7 +390,7 @@ std::vector<Conflict> conflicts(const Transcription& t, const Layout& layout, st
                                 const Values& values, const BorderedMatrix& jacobian, const Eigen::VectorXd& sizes) {
   auto relations = gather(t, layout, x, values, jacobian, sizes);
   if (relations.size() > most_relations) return {};
-  return Finder(t, std::move(relations)).run();
+  return Finder(t, x, std::move(relations)).run();
 }
 
 std::string sentence(const Conflict& conflict) {

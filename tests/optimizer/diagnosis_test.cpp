@@ -78,6 +78,19 @@ minimize integral(x''^2 + y''^2)
   expect_silent(motion, {"'f'"});
 }
 
+// More violated rows than are looked at: 1,502.
+TEST(Conflict, EverywhereAtOnce) {
+  const Motion motion = run_scene(R"(time [0, 100]
+trajectory bspline spans 400
+dof x = 3
+constrain left:  x = 0 over [0, 100] every 0.1
+constrain right: x = 1 over [30, 80] every 0.1
+minimize integral(x''^2)
+)");
+  expect_said(motion, Status::infeasible, {"'left' (line 4, at", "and 'right' (line 5, at", "cannot hold together"});
+  expect_silent(motion, {"by itself"});
+}
+
 TEST(Conflict, ManyInstancesTogether) {
   const Motion motion = run_scene(R"(time [0, 1]
 trajectory bspline spans 16
