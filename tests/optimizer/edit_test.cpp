@@ -12,7 +12,8 @@ namespace spacetime::optimizer {
 namespace {
 
 // Constants of every kind of use: in an expression, a mass, a length, gravity, a scope's ends and step, a time, an
-// instance, a weight of a term and of a constraint, a key, a start, another constant.
+// instance, a weight of a term and of a constraint, a key, a start, a bound, conditions of time and of the motion,
+// another constant.
 const std::string scene = R"(time [0, 2]
 constant g = 9.81
 constant mass = 1.5
@@ -24,8 +25,10 @@ constant w = 2
 constant soft = 30
 constant pose = 0.4
 constant target = 0.3
+constant low = -2
+constant late = 0.5
 trajectory bspline spans 8
-dof x = pose
+dof x = pose in [low, 3]
 creature arm {
   gravity (0, -g, 0)
   link upper { revolute shoulder; a length; mass mass; rod }
@@ -33,6 +36,8 @@ creature arm {
 constrain rest: (arm.q, arm.q') = 0 at 0
 constrain path: x = target*t over [0, release] every step
 constrain near: arm.upper.y = target at twice weight soft
+constrain floor: low <= arm.upper.y over [0, release] every step when t > late
+constrain side: arm.upper.x >= low over [0, 2] when x > target
 minimize effort: integral(dot(arm.force, arm.force), 0, release) weight w
 minimize calm: integral(x''^2 + arm.shoulder''^2)
 keyframe release: arm.shoulder = pose
@@ -78,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SetConstants,
                          testing::Values(Case{"g", "1.62", 1.62}, Case{"mass", "2.25", 2.25},
                                          Case{"length", "0.9", 0.9}, Case{"release", "1.5", 1.5},
                                          Case{"step", "0.125", 0.125}, Case{"w", "5", 5}, Case{"soft", "1e3", 1e3},
-                                         Case{"pose", "-0.2", -0.2}, Case{"target", "0.1", 0.1}),
+                                         Case{"pose", "-0.2", -0.2}, Case{"target", "0.1", 0.1},
+                                         Case{"low", "-1.5", -1.5}, Case{"late", "0.75", 0.75}),
                          [](const auto& param) { return param.param.name; });
 
 TEST(SetConstants, FollowEachOtherUnlessSetThemselves) {
@@ -110,9 +116,9 @@ TEST(SetConstants, RefuseWhatIsFrozenOrUnknownOrSpoilsTheProblem) {
 TEST(Edits, ChangeWhatTheyName) {
   Edited edited{compiled(scene), {}};
   apply(edited, Disable{"path"});
-  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 2U);
+  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 4U);
   apply(edited, Enable{"path"});
-  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 3U);
+  EXPECT_EQ(in_effect(edited, 0).constraints.size(), 5U);
   apply(edited, Delete{"calm"});
   EXPECT_EQ(in_effect(edited, 0).objective.size(), 1U);
   EXPECT_THROW(apply(edited, Enable{"calm"}), InputError);
