@@ -9,9 +9,8 @@ constexpr std::size_t longest_line = 100;  // characters of scene text shown; a 
 constexpr std::size_t context = 20;        // characters kept before the span of a cut line
 constexpr std::string_view cut = "...";
 
-// The characters (UTF-8 code points) of line `number`, counted from 1; none where the text has no such line.  Bytes
-// that continue no character stay with the one before them.
-std::vector<std::string_view> characters(std::string_view text, int number) {
+// Line `number` of the text, counted from 1; empty where it has no such line.
+std::string_view line_of(std::string_view text, int number) {
   for (int line = 1; line < number; ++line) {
     const auto end = text.find('\n');
     if (end == text.npos) return {};
@@ -19,14 +18,17 @@ std::vector<std::string_view> characters(std::string_view text, int number) {
   }
   text = text.substr(0, text.find('\n'));
   if (text.ends_with('\r')) text.remove_suffix(1);
-  std::vector<std::string_view> result;
-  while (!text.empty()) {
-    std::size_t size = 1;
-    while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
-    result.push_back(text.substr(0, size));
-    text.remove_prefix(size);
-  }
-  return result;
+  return text;
+}
+
+// Takes the first character (UTF-8 code point) away.  Bytes that continue no character stay with the one before them.
+std::string_view take_character(std::string_view& text) {
+  constexpr std::size_t longest = 4;  // bytes
+  std::size_t size = 1;
+  while (size < std::min(longest, text.size()) && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
+  const std::string_view character = text.substr(0, size);
+  text.remove_prefix(size);
+  return character;
 }
 
 bool is_control(std::string_view character) {
@@ -36,15 +38,19 @@ bool is_control(std::string_view character) {
 
 // The line and, below it, the mark.  The mark's line repeats the text's tabs, so that both are as wide.
 void excerpt(std::string& out, const Span& span, std::string_view text) {
-  const auto line = characters(text, span.line);
+  const std::string_view line = line_of(text, span.line);
   if (line.empty() || span.column < 1) return;
-  const std::size_t begin = std::min<std::size_t>(span.column - 1, line.size());  // one past the last: a missing end
-  const std::size_t room = std::max<std::size_t>(line.size() - begin, 1);
+  // What stands far behind the span is not counted: a line may be as long as a file.
+  const std::size_t last = static_cast<std::size_t>(span.column) + 2 * longest_line;
+  std::size_t size = 0;
+  for (std::string_view rest = line; !rest.empty() && size < last; ++size) take_character(rest);
+  const std::size_t begin = std::min<std::size_t>(span.column - 1, size);  // one past the last: a missing end
+  const std::size_t room = std::max<std::size_t>(size - begin, 1);
   std::size_t length = std::min<std::size_t>(std::max(span.length, 1), room);
 
-  std::size_t from = 0, to = line.size();
-  if (line.size() > longest_line) {
-    from = std::min(begin > context ? begin - context : 0, line.size() - longest_line);
+  std::size_t from = 0, to = size;
+  if (size > longest_line) {
+    from = std::min(begin > context ? begin - context : 0, size - longest_line);
     to = from + longest_line;
     length = std::min(length, std::max<std::size_t>(to - begin, 1));
   }
@@ -53,15 +59,18 @@ void excerpt(std::string& out, const Span& span, std::string_view text) {
     out += cut;
     mark.append(cut.size(), ' ');
   }
+  std::string_view rest = line;
+  for (std::size_t i = 0; i < from; ++i) take_character(rest);
   for (std::size_t i = from; i < to; ++i) {
-    if (is_control(line[i])) {
+    const std::string_view character = take_character(rest);
+    if (is_control(character)) {
       out += "\uFFFD";  // an escape sequence in a scene must not reach the terminal
     } else {
-      out += line[i];
+      out += character;
     }
-    if (i < begin) mark += line[i] == "\t" ? '\t' : ' ';
+    if (i < begin) mark += character == "\t" ? '\t' : ' ';
   }
-  if (to < line.size()) out += cut;
+  if (to < size) out += cut;
   mark += '^';
   mark.append(length - 1, '~');
   out += '\n';

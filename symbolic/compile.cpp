@@ -11,8 +11,7 @@
 namespace spacetime::symbolic {
 namespace {
 
-constexpr std::size_t largest_scene = 16u << 20;  // bytes: far above anything written by hand or recorded
-constexpr std::size_t most_diagnostics = 200;     // more than anyone reads at once
+constexpr std::size_t most_diagnostics = 200;  // more than anyone reads at once
 
 using Clock = std::chrono::steady_clock;
 

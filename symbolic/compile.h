@@ -28,6 +28,9 @@ struct Compilation {
   Statistics statistics;
 };
 
+// In bytes: far above anything written by hand or recorded.  A larger text is refused unread.
+inline constexpr std::size_t largest_scene = std::size_t{16} << 20;
+
 Compilation compile(std::string_view text);
 
 }  // namespace spacetime::symbolic

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "symbolic/compile.h"
 #include "symbolic/functions.h"
 #include "symbolic/lexer.h"
 #include "symbolic/visible.h"
@@ -296,10 +297,12 @@ std::string_view name_of(Completion::Kind kind) {
 }
 
 std::vector<Completion> complete(std::string_view text, int line, int column) {
+  if (text.size() > largest_scene) return {};
   return Completer(before(text, line, column)).run();
 }
 
 std::optional<Completion> describe(std::string_view text, int line, int column) {
+  if (text.size() > largest_scene) return std::nullopt;
   std::vector<Diagnostic> ignored;
   for (const Token& token : lex(text, ignored).tokens) {
     const Span& span = token.span;

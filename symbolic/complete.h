@@ -35,7 +35,8 @@ std::string_view name_of(Completion::Kind kind);
 
 // Everything that could continue the text at a line and column (both from 1; columns count characters; the cursor is in
 // front of that one), beginning with the letters there are; in the order of the language's tables, then of the text.
-// What stands behind the cursor is not looked at, and what stands before it may be unfinished or wrong.
+// What stands behind the cursor is not looked at (a text that is too large for a scene not at all), and what stands
+// before it may be unfinished or wrong.
 std::vector<Completion> complete(std::string_view text, int line, int column);
 
 // What the name there is; nothing where none is known.

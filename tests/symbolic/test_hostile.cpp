@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "symbolic/complete.h"
 #include "tests/symbolic/compiled.h"
 
 namespace spacetime::symbolic {
@@ -45,6 +46,9 @@ TEST(Hostile, AHundredMegabytesAreRefusedUnread) {
   const Compilation result = compile(line);
   ASSERT_EQ(result.diagnostics.size(), 1U);
   EXPECT_NE(result.diagnostics[0].message.find("16 MiB"), std::string::npos);
+  EXPECT_LT(render(result.diagnostics[0], "scene", line).size(), 400U);
+  EXPECT_TRUE(complete(line, 1, 1 << 30).empty());
+  EXPECT_FALSE(describe(line, 1, 1 << 30));
   EXPECT_LT(peak_memory() - before, std::size_t{1} << 20);
 }
 
