@@ -1,5 +1,9 @@
 #include "symbolic/define.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "symbolic/expression.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
@@ -33,11 +37,24 @@ bool declare_arguments(Model& model, const DefineDeclaration& declaration) {
   return model.diagnostics.size() == mistakes;
 }
 
+// What other languages call them.
+using Alias = std::pair<std::string_view, std::string_view>;
+constexpr std::array<Alias, 7> called_otherwise{{{"ln", "the natural logarithm is log(x)"},
+                                                 {"pow", "a power is written a^b"},
+                                                 {"arcsin", "write asin(x)"},
+                                                 {"arccos", "write acos(x)"},
+                                                 {"arctan", "write atan(x)"},
+                                                 {"fabs", "write abs(x)"},
+                                                 {"sgn", "write sign(x)"}}};
+
 void unknown_function(Model& model, const Node& node) {
   std::vector<std::string> names = function_names();
   for (const auto& [name, function] : model.functions) names.push_back(name);
   const auto symbol = model.symbols.find(node.text);
-  if (symbol == model.symbols.end())
+  const auto other = std::ranges::find(called_otherwise, node.text, &Alias::first);
+  if (symbol == model.symbols.end() && other != called_otherwise.end())
+    report(model, node.mark, "there is no function " + quoted(node.text) + ": " + std::string(other->second));
+  else if (symbol == model.symbols.end())
     report(
         model, node.mark,
         "there is no function " + quoted(node.text) + suggestion(node.text, names, "declare it first, with 'define'"));

@@ -34,11 +34,16 @@ std::string advice(std::string_view character) {
   if (character == "!") return "'!' means nothing here; write 'not' for a negation";
   if (character == "&") return "'&' means nothing here; write 'and'";
   if (character == "|") return "'|' means nothing here; write 'or', or abs( ) for a magnitude";
+  if (character == "?") return "'?' means nothing here; write if(condition, a, b)";
   if (character == "%") return "'%' means nothing here; write a percentage as a number, such as 0.05";
   if (character == "\"") return "texts in quotation marks are not part of the language; names stand without them";
   if (character == "\xE2\x89\xA4") return "write '<=' in place of this character";
   if (character == "\xE2\x89\xA5") return "write '>=' in place of this character";
   if (character == "\xCF\x80") return "write 'pi' in place of this character";
+  if (character == "\xC2\xB2") return "write '^2' in place of this character";
+  if (character == "\xC2\xB3") return "write '^3' in place of this character";
+  if (character == "\xC2\xB7" || character == "\xC3\x97") return "write '*' in place of this character";
+  if (character == "\xC2\xB0") return "angles are in radians; deg(30) converts";
   if (character == "\xE2\x88\x92") return "write '-' in place of this character";
   if (character == "\xE2\x80\x99" || character == "\xE2\x80\xB2") return "write ' in place of this character";
   return "the character " + quoted(character) +
@@ -105,6 +110,10 @@ class Lexer {
     if (c == '#') return comment();
     if (is_letter(c)) return word();
     if (is_digit(c) || (c == '.' && is_digit(at(1)))) return number();
+    if (c == '/' && (at(1) == '/' || at(1) == '*')) {
+      two("'" + std::string(text_.substr(i_, 2)) + "' means nothing here; a comment begins with '#'");
+      return comment();
+    }
     const auto [kind, size] = punctuation();
     if (kind != TokenKind::bad) return push(kind, size);
     other();
@@ -230,6 +239,7 @@ class Lexer {
 
   void other() {
     if (text_.substr(i_).starts_with("==")) return two("'==' means nothing here; write a single '='");
+    if (text_.substr(i_).starts_with("!=")) return two("'!=' means nothing here; relations are made with = <= >=");
     if (text_.substr(i_).starts_with("**")) return two("'**' means nothing here; write '^' for a power");
     const std::size_t size = checked_size();
     if (size == 0) return;

@@ -57,7 +57,7 @@ What parse_dof(Parsing& p) {
 What parse_let(Parsing& p) {
   LetDeclaration out;
   out.name = parse_name(p, "a name");
-  p.in.expect(TokenKind::equal, "'='");
+  p.in.expect(TokenKind::equal, p.in.at(TokenKind::left_paren) ? "'=' ('define' declares functions)" : "'='");
   out.value = parse_condition(p);
   return out;
 }
@@ -221,6 +221,8 @@ std::optional<ScopeClause> parse_scope(Parsing& p) {
   ScopeClause out;
   out.span = p.in.peek().span;
   if (p.in.accept_word("at")) {
+    if (p.in.at(TokenKind::left_bracket))
+      p.in.fail(p.in.peek().span, "'at' takes times, such as 'at 0, 1': write 'over' in front of an interval");
     out.times = parse_sums(p);
     return out;
   }

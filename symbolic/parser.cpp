@@ -13,7 +13,7 @@ namespace spacetime::symbolic {
 namespace {
 
 void unknown_statement(Parsing& p, const Token& word) {
-  if (word.kind == TokenKind::bad) return p.in.fail("");
+  if (word.kind == TokenKind::bad) return p.in.give_up();  // reported by the lexer
   if (word.kind != TokenKind::name)
     return p.in.fail(word.span, "expected a statement such as 'dof', 'constrain' or 'solve', found " + describe(word));
   if (p.in.peek().kind == TokenKind::equal)
@@ -28,6 +28,20 @@ void unknown_statement(Parsing& p, const Token& word) {
     if (begins_statement(known.word)) words.emplace_back(known.word);
   p.in.fail(word.span, "there is no statement " + quoted(word.text) +
                            suggestion(word.text, words, "begin with a word such as 'dof', 'constrain' or 'solve'"));
+}
+
+// What stands behind a whole statement on its line.
+void refuse_rest(Parsing& p) {
+  const Token& found = p.in.peek();
+  if (found.kind == TokenKind::bad) return p.in.fail("");
+  std::string advice = "begin a new line, or write ';'";
+  if (found.kind == TokenKind::comma)
+    advice = "decimals have a point, a tuple stands in ( ), and each declaration has a line of its own";
+  else if (found.kind == TokenKind::name || found.kind == TokenKind::number || found.kind == TokenKind::left_paren)
+    advice = "a product needs '*', an argument ( ), a new statement a new line or ';'";
+  else if (found.kind == TokenKind::right_paren || found.kind == TokenKind::right_bracket)
+    advice = "it closes nothing, take it away";
+  p.in.fail(found.span, "expected the end of the statement, found " + describe(found) + ": " + advice);
 }
 
 // What a statement would declare if it turns out to be damaged: the word behind the first, where that says so or is
@@ -61,7 +75,7 @@ Statement parse_statement(Parsing& p) {
     out.what = parser(p);
   else
     unknown_statement(p, word);
-  if (!p.in.failed() && !p.in.at_separator()) p.in.fail("the end of the statement");
+  if (!p.in.failed() && !p.in.at_separator()) refuse_rest(p);
   if (p.in.failed()) out.what = Damaged{declared, named};
   return out;
 }
