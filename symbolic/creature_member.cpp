@@ -69,6 +69,9 @@ std::pair<Value, bool> creature_member(Model& model, int index, int joint, std::
   if (name == "potential")
     return {numbers({potential_energy(model.graph, creature.linkage, frames_of(model, creature))}), true};
   if (creature.damaged) return {Value{}, true};
+  Symbol missing;  // so that its other uses are not reported too
+  missing.declared = false;
+  if (!model.symbols.try_emplace(creature.name + "." + std::string(name), missing).second) return {Value{}, true};
   return refused(
       model, span,
       quoted(creature.name) + " has no member " + quoted(name) +

@@ -438,6 +438,8 @@ TEST(Diagnostics, Creatures) {
             "cannot be made from them"},
            {arm(link + "gravity (0, -1, 0)\ngravity (0, -1, 0)"), 6, 1, "one 'gravity'"},
            {arm(link + "lnk two { fixed }"), 5, 1, "expected 'link', 'point', 'gravity' or 'force'"},
+           {arm(link, "let y = arm.q2\nlet z = arm.q2' + arm.q2.force\nkeyframe 0: arm.q2 = 1"), 7, 13,
+            "did you mean 'q1'?"},
            {arm(link, "let y = arm.q2"), 7, 13, "did you mean 'q1'?"},
            {arm(link, "let y = arm"), 7, 9, "name one of its members, such as arm.q"},
            {arm(link, "let y = arm.q1.torque"), 7, 16, "only 'force'"},
