@@ -1,7 +1,9 @@
 #include "common/bspline.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 #include "common/assert.h"
 
@@ -185,24 +187,35 @@ std::vector<double> fit(const Basis& basis, std::span<const double> times, std::
   return c;
 }
 
-// Boehm: d[k] = a c[k] + (1 - a) c[k-1] with a = (t - u[k]) / (u[k+3] - u[k]), limited to [0, 1].
-std::vector<double> insert_knot(Basis& basis, std::span<const double> c, double t) {
-  auto& u = basis.knots;
+// A new coefficient is the old curve's polar form at its three inner knots.
+std::vector<double> insert_knots(Basis& basis, std::span<const double> c, std::span<const double> times) {
+  const auto& u = basis.knots;
   SPACETIME_ASSERT(static_cast<int>(c.size()) == basis.size());
-  SPACETIME_ASSERT(t > u.front() && t < u.back());
-  const int j = interval(basis, t);
-  std::vector<double> d(c.size() + 1);
+  std::vector<double> v;
+  v.reserve(u.size() + times.size());
+  std::ranges::merge(u, times, std::back_inserter(v));
+  std::vector<double> d(v.size() - degree - 1);
+  int span = 0;  // of the old knots: u[span] <= v[k] < u[span + 1]
   for (int k = 0; k < static_cast<int>(d.size()); ++k) {
-    if (k <= j - degree) {
-      d[k] = c[k];
-    } else if (k > j) {
-      d[k] = c[k - 1];
-    } else {
-      const double a = (t - u[k]) / (u[k + degree] - u[k]);
-      d[k] = a * c[k] + (1 - a) * c[k - 1];
+    while (u[span + 1] <= v[k]) ++span;
+    int kept = span - degree;
+    while (kept <= span && !std::equal(&u[kept + 1], &u[kept + 1] + degree, &v[k + 1])) ++kept;
+    if (kept <= span) {
+      d[k] = c[kept];
+      continue;
     }
+    std::array<double, degree + 1> p;
+    for (int i = 0; i <= degree; ++i) p[i] = c[span - degree + i];
+    for (int r = 1; r <= degree; ++r) {
+      for (int i = degree; i >= r; --i) {
+        const int j = span - degree + i;
+        const double a = (v[k + r] - u[j]) / (u[j + degree + 1 - r] - u[j]);
+        p[i] = (1 - a) * p[i - 1] + a * p[i];
+      }
+    }
+    d[k] = p[degree];
   }
-  u.insert(u.begin() + j + 1, t);
+  basis.knots = std::move(v);
   return d;
 }
 

@@ -38,7 +38,8 @@ std::vector<double> greville(const Basis& basis);
 // support of each coefficient; ends are met exactly when they are among the times).
 std::vector<double> fit(const Basis& basis, std::span<const double> times, std::span<const double> values);
 
-// Inserts a knot: the same curve on a basis with one coefficient more (Boehm).
-std::vector<double> insert_knot(Basis& basis, std::span<const double> coefficients, double t);
+// Inserts knots, rising and strictly inside the time: the same curve on a basis with as many coefficients more.
+// Coefficients whose knots do not change keep their bits (Oslo algorithm: Cohen, Lyche and Riesenfeld 1980).
+std::vector<double> insert_knots(Basis& basis, std::span<const double> coefficients, std::span<const double> times);
 
 }  // namespace spacetime

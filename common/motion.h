@@ -65,6 +65,14 @@ struct IterationRecord {
   bool operator==(const IterationRecord&) const = default;
 };
 
+// A minimum that some of many starts ended in.
+struct Minimum {
+  double objective = 0;
+  std::vector<int> starts;  // which, from 0; the first of them is whose curves are kept
+  std::vector<Trajectory> dofs;
+  bool operator==(const Minimum&) const = default;
+};
+
 // Where the status is `failed`, measures may be no numbers: the objective, its terms, violations, samples, and a
 // record's objective, violation and stationarity.  All else is finite always.
 struct Motion {
@@ -82,6 +90,7 @@ struct Motion {
   std::vector<std::pair<std::string, double>> parameters;
   std::optional<Samples> samples;
   std::vector<IterationRecord> record;  // on request: all iterations
+  std::vector<Minimum> minima;          // distinct ones, best first, where the last `solve` had many starts
   bool operator==(const Motion&) const = default;
 };
 

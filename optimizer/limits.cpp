@@ -18,6 +18,9 @@ constexpr double least_fraction = 0.99;
 // Multipliers stay within this factor of mu / slack.
 constexpr double most_ratio = 1e10;
 
+// Multipliers of an earlier solve are taken over within this factor of mu / slack.
+constexpr double carried_ratio = 1e3;
+
 double fraction(double mu) { return std::max(least_fraction, 1 - mu); }
 
 // The largest length up to 1 with value + length * change >= (1 - fraction) value, value being positive.
@@ -41,9 +44,35 @@ Limits::Limits(const Transcription& t, const Layout& layout) : size_(layout.size
   }
 }
 
-void Limits::push_inside(std::vector<double>& x) const {
-  for (const Bound& b : lower_) x[b.unknown] = std::max(x[b.unknown], b.value + b.margin);
-  for (const Bound& b : upper_) x[b.unknown] = std::min(x[b.unknown], b.value - b.margin);
+void Limits::push_inside(std::vector<double>& x, double part) const {
+  for (const Bound& b : lower_) x[b.unknown] = std::max(x[b.unknown], b.value + part * b.margin);
+  for (const Bound& b : upper_) x[b.unknown] = std::min(x[b.unknown], b.value - part * b.margin);
+}
+
+void Limits::carry(const Carried& carried, const Layout& layout, const Eigen::VectorXd& c, const std::vector<double>& x,
+                   Barrier& barrier) const {
+  const double mu = barrier.mu;
+  const auto fitting = [&](double dual, double room) {
+    return std::clamp(dual, mu / (carried_ratio * room), carried_ratio * mu / room);
+  };
+  for (std::size_t r = 0; r < carried.dual.size(); ++r) {
+    const int k = layout.of_row[r];
+    const double dual = carried.dual[r];
+    if (dual <= 0 || barrier.dual[k] <= 0) continue;
+    // A limit that was far from its multiplier's scale keeps the slack of a first start.
+    const double slack = std::max(-c[k], mu / dual);
+    if (slack > barrier.slack[k] && -c[k] < barrier.slack[k]) continue;
+    barrier.slack[k] = slack;
+    barrier.dual[k] = fitting(dual, slack);
+  }
+  for (const Bound& b : lower_) {
+    const double dual = carried.lower_dual[b.unknown];
+    if (dual > 0) barrier.lower_dual[b.position] = fitting(dual, x[b.unknown] - b.value);
+  }
+  for (const Bound& b : upper_) {
+    const double dual = carried.upper_dual[b.unknown];
+    if (dual > 0) barrier.upper_dual[b.position] = fitting(dual, b.value - x[b.unknown]);
+  }
 }
 
 Barrier Limits::start(const std::vector<double>& x, const Eigen::VectorXd& c, double mu) const {

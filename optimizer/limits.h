@@ -22,6 +22,13 @@ struct Barrier {
   Eigen::VectorXd lower_dual, upper_dual;  // at unknowns
 };
 
+// Of an earlier solve, for limits and bounds that are still there; 0 where nothing is known.
+struct Carried {
+  double mu = 0;
+  std::vector<double> dual;                    // one a row
+  std::vector<double> lower_dual, upper_dual;  // one an unknown
+};
+
 class Limits {
  public:
   Limits(const Transcription& transcription, const Layout& layout);
@@ -29,10 +36,14 @@ class Limits {
   bool none() const { return rows_.empty() && lower_.empty() && upper_.empty(); }
   int count() const { return static_cast<int>(rows_.size() + lower_.size() + upper_.size()); }
 
-  // Moves unknowns that touch or leave their bounds to the inside.
-  void push_inside(std::vector<double>& x) const;
+  // Moves unknowns that touch or leave their bounds to the inside, by this part of what a first start is pushed.
+  void push_inside(std::vector<double>& x, double part = 1) const;
   // Slacks and multipliers on the central path as near as x allows.  `c` is the residual in KKT positions.
   Barrier start(const std::vector<double>& x, const Eigen::VectorXd& c, double mu) const;
+
+  // Takes over multipliers of an earlier solve, with slacks to match, as far as they make sense with the barrier's mu.
+  void carry(const Carried& carried, const Layout& layout, const Eigen::VectorXd& c, const std::vector<double>& x,
+             Barrier& barrier) const;
 
   // What the barrier adds: D and -E; the gradient of phi; bounds' multipliers' pull on the unknowns; the
   // residual with c + s + mu / lambda at limits, for the right side of the KKT system.

@@ -39,6 +39,7 @@ struct Arguments {
   double samples = 0;
   std::optional<double> tolerance;
   std::optional<int> iterations;
+  int threads = 0;
   std::vector<std::string> show;
   bool record = false, quiet = false;
 };
@@ -62,6 +63,7 @@ int solve(const Arguments& arguments) {
   if (!arguments.start.empty()) options.start = read_motion(read_text(arguments.start));
   options.tolerance = arguments.tolerance;
   options.iterations = arguments.iterations;
+  options.threads = arguments.threads;
   options.frames_per_second = arguments.samples;
   options.record = arguments.record;
   options.interrupted = [] { return interrupts > 0; };
@@ -113,6 +115,8 @@ int main(int argc, char** argv) {
                    "Frames per second: also writes plotted expressions and body poses at that rate")
       ->check(positive);
   command->add_option("--tolerance", arguments.tolerance, "In place of the actions' own")->check(positive);
+  command->add_option("--threads", arguments.threads, "Cores for many starts; the motion does not depend on them")
+      ->check(CLI::Range(1, 256));
   command->add_option("--iterations", arguments.iterations, "At most so many a solve, in place of the actions' own")
       ->check(CLI::NonNegativeNumber);
   command

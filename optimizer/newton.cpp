@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace spacetime::optimizer {
 namespace {
@@ -17,6 +18,10 @@ constexpr double most_violation_factor = 1e4;
 // be solved before it falls, and how it falls [Waechter and Biegler 2006, eq. 7]; the last is this fraction of the
 // tolerance.
 constexpr double first_mu = 0.1, barrier_error = 10, mu_factor = 0.2, mu_power = 1.5, last_mu = 0.5;
+
+// After an edit the barrier begins at this fraction of a first start's, and starts are pushed inside their bounds by
+// this part.
+constexpr double warm_mu = 1e-4, warm_push = 1e-8;
 
 // A soft inequality that is met: so compliant that it asks nothing.
 constexpr double inert = 1e30;
@@ -63,6 +68,17 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   double largest = 0;
   for (const int u : layout_.free) largest = std::max(largest, std::abs(direction[layout_.of_unknown[u]]));
   return largest;
+}
+
+// How far a direction may be gone without any unknown changing by more than it may in one iteration.
+double Newton::most_length(const Eigen::VectorXd& direction) const {
+  constexpr double within = 1 - 1e-9;  // whatever adding it rounds to
+  double most = std::numeric_limits<double>::infinity();
+  for (const int u : layout_.free) {
+    const double change = std::abs(direction[layout_.of_unknown[u]]);
+    if (change * most > t_.most_change[u]) most = within * t_.most_change[u] / change;
+  }
+  return most;
 }
 
 // Derivatives, multipliers and measures at state.x.
@@ -124,9 +140,8 @@ void Newton::judge(NewtonState& state) {
   state.condition = StepResult::stepped;
 }
 
-NewtonState Newton::start(std::vector<double> x) {
+NewtonState Newton::start(std::vector<double> x, const Carried* carried) {
   NewtonState state;
-  limits_.push_inside(x);
   settle_functionals(t_, x, workspace_);
   state.x = std::move(x);
   state.linear = start_linearisation(layout_);
@@ -137,11 +152,33 @@ NewtonState Newton::start(std::vector<double> x) {
   state.radius = first_radius;
   const double size = std::isfinite(state.values.objective) ? std::abs(state.values.objective) : 0;
   const double mu = first_mu * std::max(1.0, size) / std::max(1, limits_.count());
-  state.barrier = limits_.start(state.x, residual_of(state.values), mu);
+  auto inside = state.x;
+  if (carried && carried->mu > 0) {
+    const double low = std::clamp(warm_mu * mu, std::min(carried->mu, mu), mu);
+    limits_.push_inside(inside, warm_push);
+    state.barrier = limits_.start(inside, residual_of(state.values), low);
+    limits_.carry(*carried, layout_, residual_of(state.values), inside, state.barrier);
+  } else {
+    limits_.push_inside(inside);
+    state.barrier = limits_.start(inside, residual_of(state.values), mu);
+  }
+  state.outside = inside != state.x;
   judge(state);
   state.most_violation = std::max(1.0, state.measures.sum);
   state.filter.limit(most_violation_factor * state.most_violation);
   return state;
+}
+
+// The barrier needs a start inside all bounds.  It is moved there when the first step is wanted, not before: a motion
+// that is only judged stays as it is.
+void Newton::move_inside(NewtonState& state) {
+  auto x = state.x;
+  limits_.push_inside(x);
+  NewtonState inside = start(std::move(x));
+  inside.iterations = state.iterations;
+  inside.seconds.evaluate += state.seconds.evaluate;
+  inside.seconds.factor += state.seconds.factor;
+  state = std::move(inside);
 }
 
 // `when`, settled at the start of each iteration.
@@ -194,6 +231,8 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
   settle_conditions(state);
   if (state.condition != StepResult::stepped) return state.condition;
   if (state.measures.within(tolerance)) return StepResult::converged;
+  if (state.outside) move_inside(state);
+  if (state.condition != StepResult::stepped) return state.condition;
   if (state.restore_from > 0) return restore(state, tolerance);
   lower_barrier(state, tolerance);
 

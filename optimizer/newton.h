@@ -41,6 +41,7 @@ struct NewtonState {
   Eigen::VectorXd gradient;         // of the whole objective, soft rows among it, in KKT positions
   std::vector<double> multipliers;  // one a row; the sign is that of  gradient + A^T multipliers = 0
   Barrier barrier;
+  bool outside = false;  // x touches or leaves its bounds
   Measures measures;
   StepResult condition = StepResult::stepped;  // not_finite or singular where x cannot be gone on from
 
@@ -65,7 +66,8 @@ class Newton {
   // Both must outlive it.
   Newton(const Transcription& transcription, const Layout& layout);
 
-  NewtonState start(std::vector<double> x);
+  // Near the dual point of an earlier solve, where there is one: the barrier then begins low.
+  NewtonState start(std::vector<double> x, const Carried* carried = nullptr);
 
   // One accepted step, or why there is none.  The state holds the point reached, judged.
   StepResult step(NewtonState& state, double tolerance);
@@ -96,6 +98,7 @@ class Newton {
 
   // newton.cpp
   void judge(NewtonState& state);
+  void move_inside(NewtonState& state);
   void settle_conditions(NewtonState& state);
   void lower_barrier(NewtonState& state, double tolerance) const;
   Model model_of(const NewtonState& state, Eigen::VectorXd solution) const;
@@ -103,6 +106,7 @@ class Newton {
   Eigen::VectorXd soft_weights(const Eigen::VectorXd& c) const;  // w where a soft row asks something
   double filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const;
   double largest_change(const Eigen::VectorXd& direction) const;
+  double most_length(const Eigen::VectorXd& direction) const;
 
   // search.cpp
   Trial try_at(NewtonState& state, const Eigen::VectorXd& change, const Barrier& barrier) const;

@@ -30,6 +30,7 @@ Motion run(const Problem& problem, const RunOptions& options) {
   std::vector<IterationRecord> records;
   bool ended = false;  // interrupted, or an action was refused
   Watch watch;
+  watch.threads = options.threads;
   watch.progress = [&](const IterationRecord& record) {
     if (options.progress) options.progress(record);
     if (options.record) records.push_back(record);

@@ -14,6 +14,7 @@ struct RunOptions {
   std::optional<Motion> start;                           // a motion to start from
   std::optional<double> tolerance;                       // in place of the actions' own
   std::optional<int> iterations;                         // likewise
+  int threads = 0;                                       // for many starts; as many as there are cores where 0
   double frames_per_second = 0;                          // above 0: the motion has samples
   bool record = false;                                   // the motion has the record of all iterations
   std::function<void(const IterationRecord&)> progress;  // after each iteration

@@ -113,7 +113,7 @@ std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& 
     }
     if (!back) return std::nullopt;
     for (const int u : layout_.free) change[layout_.of_unknown[u]] += (*back)[layout_.of_unknown[u]];
-    if (largest_change(change) > 2 * length * model.size) return std::nullopt;  // no correction any more
+    if (largest_change(change) > 2 * length * model.size || most_length(change) < 1) return std::nullopt;
     Trial other = try_at(state, change, moved(state, model, length));
     if (verdict(state, model, other, length) != Verdict::rejected) return other;
     if (!other.finite) return std::nullopt;
@@ -124,7 +124,7 @@ std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& 
 
 StepResult Newton::search(NewtonState& state, const Model& model, double tolerance) {
   const double violation = state.measures.sum;
-  double length = model.change.most_primal;
+  double length = std::min(model.change.most_primal, most_length(model.d));
   const auto try_length = [&] { return try_at(state, length * model.d, moved(state, model, length)); };
   Trial trial = try_length();
   const bool trusted =
@@ -227,8 +227,8 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
     if (!(slope < -stationary_violation * squares)) continue;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(layout_.size());
     const double room = limits_.change(state.x, state.barrier, -state.barrier.slack, zero, d).most_primal;
-    for (double length = std::min(room, state.radius / largest_change(d)); length > shortest_restoring_step;
-         length /= 2) {
+    for (double length = std::min({room, state.radius / largest_change(d), most_length(d)});
+         length > shortest_restoring_step; length /= 2) {
       Trial trial = try_at(state, length * d, state.barrier);
       if (!trial.values.finite) continue;
       const double remaining = squares_of(violations(trial.values));

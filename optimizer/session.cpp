@@ -3,17 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <thread>
 #include <type_traits>
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
 #include "optimizer/bfgs.h"
+#include "optimizer/carry.h"
+#include "optimizer/refine.h"
 #include "optimizer/sketch.h"
 #include "optimizer/sqp92.h"
+#include "optimizer/starts.h"
 #include "optimizer/window.h"
 
 namespace spacetime::optimizer {
 namespace {
+
+// How far starts are shaken (rad or m).
+constexpr double start_amplitude = 1;
 
 [[noreturn]] void not_built(std::string_view what) { throw InputError(fmt::format("{} is not built yet", what)); }
 
@@ -39,18 +47,26 @@ bool is_edit(const Action& action) {
   return !std::holds_alternative<Solve>(action) && !std::holds_alternative<Iterate>(action);
 }
 
-Session::Numerics::Numerics(Problem p, const Window& window)
+Session::Numerics::Numerics(Problem p, const Setting& setting)
     : problem(std::move(p)),
       whole(transcribe(problem)),
-      freedom(within(problem, whole.constants, window)),
+      freedom(within(problem, whole.constants, setting.window)),
       part(freedom.whole ? std::nullopt : std::optional(transcribe(problem, freedom))),
       layout(arrange(t())),
-      newton(t(), layout) {}
+      newton(t(), layout) {
+  Transcription& iterated = part ? *part : whole;
+  for (int dof = 0; dof < iterated.dofs(); ++dof) {
+    const auto limit = setting.damping.find(problem.dofs[dof].name);
+    if (limit == setting.damping.end()) continue;
+    std::fill_n(iterated.most_change.begin() + iterated.first[dof], iterated.first[dof + 1] - iterated.first[dof],
+                limit->second);
+  }
+}
 
 Session::Session(Problem problem, std::optional<Motion> start)
     : edited_{std::move(problem), {}},
       start_(std::move(start)),
-      now_(std::make_unique<Numerics>(in_effect(edited_, declared_), window_)) {
+      now_(std::make_shared<Numerics>(in_effect(edited_, declared_), setting_)) {
   restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
 }
 
@@ -59,10 +75,7 @@ void Session::declare(int action) {
   const bool more = std::ranges::any_of(edited_.problem.constraints, begins) ||
                     std::ranges::any_of(edited_.problem.objective, begins);
   declared_ = std::max(declared_, action);
-  if (!more) return;
-  auto x = unknowns();
-  now_ = std::make_unique<Numerics>(in_effect(edited_, declared_), window_);
-  restart(std::move(x));
+  if (more) take_over(edited_, setting_);
 }
 
 void Session::perform(const Action& action, const Watch& watch) {
@@ -70,10 +83,14 @@ void Session::perform(const Action& action, const Watch& watch) {
 }
 
 void Session::act(const Solve& solve, const Watch& watch) {
-  if (solve.starts > 1) not_built("'starts'");
+  minima_.clear();
+  if (solve.starts > 1 && solve.method != Solve::Method::newton) {
+    throw InputError("only the method 'newton' solves from many starts");
+  }
   const int limit = solve.iterations.value_or(default_iterations);
   switch (solve.method) {
     case Solve::Method::newton:
+      if (solve.starts > 1) return solve_from_many(solve.starts, limit, solve.tolerance, watch);
       return iterate(limit, solve.tolerance, watch);
     case Solve::Method::sqp92:
       return iterate_by([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit, solve.tolerance, watch);
@@ -90,25 +107,84 @@ void Session::act(const Reset&, const Watch&) {
 }
 
 void Session::act(const Window& window, const Watch&) {
-  auto x = settled();
-  now_ = std::make_unique<Numerics>(now_->problem, window);
-  window_ = window;
-  restart(std::move(x));
+  Setting setting = setting_;
+  setting.window = window;
+  take_over(edited_, setting);
 }
 
-void Session::act(const Control& control, const Watch&) {
-  const Transcription& t = now_->whole;
-  const auto dof = std::ranges::find(t.problem->dofs, control.dof, &Dof::name) - t.problem->dofs.begin();
-  const int size = t.problem->dofs[dof].basis.size();
-  if (control.index >= size) {
-    throw InputError(fmt::format("'{}' has {} coefficients, numbered from 0", control.dof, size));
+void Session::act(const Damp& damp, const Watch&) {
+  const double limit = evaluate(now_->problem, now_->whole.constants, damp.limit, "damp");
+  if (!(limit > 0)) throw InputError(fmt::format("the limit of `damp`, {}, must be positive", limit));
+  Setting setting = setting_;
+  for (const Dof& dof : now_->problem.dofs) {
+    if (damp.dofs.empty() || std::ranges::count(damp.dofs, dof.name) > 0) setting.damping[dof.name] = limit;
   }
-  if (!now_->freedom.has(static_cast<int>(dof), control.index)) {
-    throw InputError(fmt::format("coefficient {} of '{}' is not free in the window", control.index, control.dof));
+  take_over(edited_, setting);
+}
+
+void Session::act(const Refine& action, const Watch&) {
+  if (action.automatic) {
+    return refine_where_needed(evaluate(now_->problem, now_->whole.constants, *action.automatic, "refine auto"));
   }
-  auto x = unknowns();
-  x[t.first[dof] + control.index] = evaluate(*t.problem, t.constants, control.value, "control " + control.dof);
-  restart(std::move(x));
+  Edited next = edited_;
+  Curves finer = curves();
+  refine(next.problem, now_->whole.constants, action, finer);
+  take_over(std::move(next), setting_, &finer);
+}
+
+// Halves the spans on which one step on knots twice as fine moves the motion by more than the tolerance.
+void Session::refine_where_needed(double tolerance) {
+  if (!(tolerance > 0))
+    throw InputError(fmt::format("the tolerance of `refine auto`, {}, must be positive", tolerance));
+  Session finer = Session(edited_.problem);
+  finer.edited_ = edited_;
+  finer.declared_ = declared_;
+  Curves before = curves();
+  refine(finer.edited_.problem, now_->whole.constants, Refine{}, before);
+  finer.take_over(finer.edited_, setting_, &before);
+  finer.now_->newton.step(finer.state_, std::numeric_limits<double>::min());
+  const Curves after = finer.curves();
+
+  Edited next = edited_;
+  Curves result = curves();
+  for (std::size_t dof = 0; dof < result.size(); ++dof) {
+    Basis& basis = next.problem.dofs[dof].basis;
+    const auto differ = spans_that_differ(finer.edited_.problem.dofs[dof].basis, before[dof], after[dof], tolerance);
+    std::vector<double> spans;
+    const auto knots = breakpoints(basis);
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      const bool asks = std::ranges::any_of(differ, [&](double t) { return knots[k] <= t && t < knots[k + 1]; });
+      if (asks) spans.push_back(knots[k]);
+    }
+    halve(basis, spans, result[dof]);
+  }
+  take_over(std::move(next), setting_, &result);
+}
+
+void Session::act(const Shake& action, const Watch&) {
+  Curves changed = curves();
+  const int seed = action.seed.value_or(shakes_ + 1);
+  shake(now_->problem, now_->whole.constants, now_->freedom, action, seed, changed);
+  if (!action.seed) ++shakes_;
+  reshape(changed);
+}
+
+void Session::act(const Smooth& action, const Watch&) {
+  Curves changed = curves();
+  smooth(now_->problem, now_->whole.constants, now_->freedom, action, changed);
+  reshape(changed);
+}
+
+void Session::act(const PullKeys& action, const Watch&) {
+  Curves changed = curves();
+  pull(now_->problem, now_->whole.constants, now_->freedom, action, changed);
+  reshape(changed);
+}
+
+void Session::act(const Control& action, const Watch&) {
+  Curves changed = curves();
+  control(now_->problem, now_->whole.constants, now_->freedom, action, changed);
+  reshape(changed);
 }
 
 template <class Edit>
@@ -116,11 +192,7 @@ requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
 void Session::act(const Edit& edit, const Watch&) {
   Edited next = edited_;
   apply(next, edit);
-  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_), window_);  // refused here, nothing is lost
-  auto x = unknowns();
-  edited_ = std::move(next);
-  now_ = std::move(numerics);
-  restart(std::move(x));
+  take_over(std::move(next), setting_);
 }
 
 template <class Other>
@@ -130,7 +202,7 @@ void Session::act(const Other& other, const Watch&) {
 
 void Session::update(Problem problem) {
   Edited next{std::move(problem), {}};
-  auto numerics = std::make_unique<Numerics>(in_effect(next, declared_), window_);
+  auto numerics = std::make_shared<Numerics>(in_effect(next, declared_), setting_);
   const Motion reached = motion();
   auto x = start_of(numerics->problem, numerics->whole, &reached);
   edited_ = std::move(next);
@@ -144,10 +216,43 @@ void Session::set_motion(const Motion& motion) {
   restart(std::move(x));
 }
 
+// Goes on with another problem, window or damping from the same motion, or from these curves of the new problem.  What
+// cannot be is refused here, before anything is lost.
+void Session::take_over(Edited edited, const Setting& setting, const Curves* curves) {
+  auto numerics = std::make_shared<Numerics>(in_effect(edited, declared_), setting);
+  auto x = settled();
+  if (curves) {
+    std::vector<double> other;
+    for (const auto& curve : *curves) other.insert(other.end(), curve.begin(), curve.end());
+    other.insert(other.end(), x.begin() + now_->whole.first_functional(), x.end());
+    x = std::move(other);
+  }
+  const Carried dual = carried(now_->t(), now_->layout, state_, numerics->t());
+  edited_ = std::move(edited);
+  setting_ = setting;
+  now_ = std::move(numerics);
+  restart(std::move(x), &dual);
+}
+
+Curves Session::curves() const {
+  Curves result;
+  for (Trajectory& trajectory : trajectories()) result.push_back(std::move(trajectory.coefficients));
+  return result;
+}
+
+void Session::reshape(const Curves& curves) {
+  auto x = unknowns();
+  auto to = x.begin();
+  for (const auto& curve : curves) to = std::ranges::copy(curve, to).out;
+  const Carried dual = carried(now_->t(), now_->layout, state_, now_->t());
+  restart(std::move(x), &dual);
+}
+
 // Goes on from x with the problem as it stands.
-void Session::restart(std::vector<double> x) {
+void Session::restart(std::vector<double> x, const Carried* carried) {
   const int iterations = state_.iterations;
   const Seconds seconds = state_.seconds;
+  minima_.clear();
   objective_outside_ = 0;
   x_ = std::move(x);
   if (now_->part) {
@@ -157,9 +262,9 @@ void Session::restart(std::vector<double> x) {
     auto own = taken(now_->whole, *now_->part, x_);
     objective_outside_ =
         evaluate(now_->whole, x_, workspace).objective - evaluate(*now_->part, own, workspace).objective;
-    state_ = now_->newton.start(std::move(own));
+    state_ = now_->newton.start(std::move(own), carried);
   } else {
-    state_ = now_->newton.start(x_);
+    state_ = now_->newton.start(x_, carried);
   }
   state_.iterations = iterations;
   state_.seconds.evaluate += seconds.evaluate;
@@ -174,6 +279,61 @@ void Session::iterate(int limit, double tolerance, const Watch& watch) {
     if (result == StepResult::stepped) return std::nullopt;
     return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
   });
+}
+
+// The present motion, and others shaken from it with the seeds 1, 2, ...  The best end is gone on from.
+void Session::solve_from_many(int starts, int limit, double tolerance, const Watch& watch) {
+  const std::shared_ptr<Numerics> numerics = now_;  // an edit while threads are at work puts another in its place
+  const Transcription& t = numerics->t();
+  std::vector<std::vector<double>> points{state_.x};
+  const Curves own = curves();
+  for (int seed = 1; seed < starts; ++seed) {
+    Curves shaken = own;
+    shake(numerics->problem, t.constants, numerics->freedom, Shake{{start_amplitude, {}, 0}, seed, {}}, seed, shaken);
+    auto& x = points.emplace_back(state_.x);
+    for (int dof = 0; dof < t.dofs(); ++dof) {
+      std::copy_n(shaken[dof].begin() + t.from[dof], t.first[dof + 1] - t.first[dof], x.begin() + t.first[dof]);
+    }
+  }
+  bool stopped = false;
+  const int threads = watch.threads > 0 ? watch.threads : static_cast<int>(std::thread::hardware_concurrency());
+  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, threads, [&](int) {
+    stopped |= (watch.go_on && !watch.go_on()) || now_ != numerics;
+    return !stopped;
+  });
+  if (now_ != numerics) return stop("Stopped: an edit ended the solve from many starts, and the motion is as it was.");
+
+  int iterations = state_.iterations;
+  Seconds seconds = state_.seconds;
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < endings.size(); ++k) {
+    iterations += endings[k].state.iterations;
+    seconds.evaluate += endings[k].state.seconds.evaluate;
+    seconds.factor += endings[k].state.seconds.factor;
+    if (better(endings[k], endings[best], tolerance)) best = k;
+  }
+  const StepResult result = endings[best].result;
+  const auto groups = distinct(endings, tolerance);
+  std::size_t converged = 0;
+  for (const auto& group : groups) {
+    state_ = endings[group.front()].state;
+    minima_.push_back({state_.values.objective + objective_outside_, group, trajectories()});
+    converged += group.size();
+  }
+  state_ = std::move(endings[best].state);
+  state_.iterations = iterations;
+  state_.seconds = seconds;
+  judged_ = true;
+  foreign_ = false;
+  if (result == StepResult::stepped) {
+    outcome_ = {Status::stopped, (stopped ? "Interrupted after " : "Stopped after ") + count() + ". " + standing()};
+  } else {
+    outcome_ = outcome_of(result, now_->t(), now_->layout, state_, tolerance);
+    outcome_.message += standing_elsewhere(tolerance);
+  }
+  outcome_.message += fmt::format(" Of {} starts {} converged, to {} distinct minim{}.", starts, converged,
+                                  groups.size(), groups.size() == 1 ? "um" : "a");
+  if (watch.progress) watch.progress(record());
 }
 
 // By another method, which `make` makes: for the first step, and again for what edits have changed.
@@ -334,6 +494,7 @@ Motion Session::motion(double tolerance) {
   for (const Constant& constant : problem.constants) {
     motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
   }
+  motion.minima = minima_;
   motion.seconds = state_.seconds;
   motion.seconds.total = elapsed();
   return motion;

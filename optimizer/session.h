@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,11 +16,13 @@
 #include "optimizer/edit.h"
 #include "optimizer/newton.h"
 #include "optimizer/outcome.h"
+#include "optimizer/reshape.h"
 
 namespace spacetime::optimizer {
 
 // Who looks on while an action iterates.
 struct Watch {
+  int threads = 0;                                       // for many starts; as many as there are cores where 0
   std::function<void(const IterationRecord&)> progress;  // after each iteration
   // Asked before each iteration; false ends the action, and the motion reached is kept.  It may perform edits on the
   // session (is_edit), which then take effect with the iteration that follows.
@@ -72,6 +75,10 @@ class Session {
 
  private:
   // A problem with everything that is made from it.  The parts refer to one another, so it stays where it is.
+  struct Setting {
+    Window window;
+    std::map<std::string, double> damping;  // by degree of freedom: most change of a value in one iteration
+  };
   struct Numerics {
     Problem problem;
     Transcription whole;
@@ -80,7 +87,7 @@ class Session {
     Layout layout;
     Newton newton;
 
-    Numerics(Problem problem, const Window& window);
+    Numerics(Problem problem, const Setting& setting);
     Numerics(const Numerics&) = delete;
     Numerics& operator=(const Numerics&) = delete;
 
@@ -93,6 +100,11 @@ class Session {
   void act(const Reset& reset, const Watch& watch);
   void act(const Control& control, const Watch& watch);
   void act(const Window& window, const Watch& watch);
+  void act(const Damp& damp, const Watch& watch);
+  void act(const Refine& refine, const Watch& watch);
+  void act(const Shake& shake, const Watch& watch);
+  void act(const Smooth& smooth, const Watch& watch);
+  void act(const PullKeys& keys, const Watch& watch);
   template <class Edit>
   requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
   void act(const Edit& edit, const Watch& watch);
@@ -101,11 +113,16 @@ class Session {
 
   // One step, or what it came to where there is none; `afresh` where the motion has been edited since the last.
   using Step = std::function<std::optional<Outcome>(bool afresh)>;
+  void solve_from_many(int starts, int limit, double tolerance, const Watch& watch);
   void iterate(int limit, double tolerance, const Watch& watch, const Step& step);
   void iterate(int limit, double tolerance, const Watch& watch);  // by Newton
   template <class Make>
   void iterate_by(const Make& make, int limit, double tolerance, const Watch& watch);
-  void restart(std::vector<double> x);
+  void restart(std::vector<double> x, const Carried* carried = nullptr);
+  void take_over(Edited edited, const Setting& setting, const Curves* curves = nullptr);
+  Curves curves() const;
+  void reshape(const Curves& curves);
+  void refine_where_needed(double tolerance);
   bool reached(double tolerance) const;
   std::string count() const;
   std::string standing() const;
@@ -118,14 +135,16 @@ class Session {
   Edited edited_;
   std::optional<Motion> start_;
   int declared_ = 0;  // actions of the problem's list before which everything is declared
-  Window window_;
-  std::unique_ptr<Numerics> now_;
-  std::vector<double> x_;         // all unknowns; what is free is in state_
-  double objective_outside_ = 0;  // the part of the objective that the window leaves as it is
+  Setting setting_;
+  int shakes_ = 0;                 // without a seed of their own, so far
+  std::shared_ptr<Numerics> now_;  // shared with the threads of many starts
+  std::vector<double> x_;          // all unknowns; what is free is in state_
+  double objective_outside_ = 0;   // the part of the objective that the window leaves as it is
   NewtonState state_;
   Outcome outcome_;
-  bool judged_ = false;   // the outcome speaks of the present point
-  bool foreign_ = false;  // another method than Newton has led to it: what only Newton wants of state_ is older
+  std::vector<Minimum> minima_;  // of the last solve, where it had many starts
+  bool judged_ = false;          // the outcome speaks of the present point
+  bool foreign_ = false;         // another method than Newton has led to it: what only Newton wants of state_ is older
 };
 
 }  // namespace spacetime::optimizer

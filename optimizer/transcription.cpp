@@ -196,6 +196,7 @@ class Transcriber {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     out_.lower.assign(out_.unknowns(), -infinite);
     out_.upper.assign(out_.unknowns(), infinite);
+    out_.most_change.assign(out_.unknowns(), infinite);
     const auto bound = [&](const std::string& name, const std::optional<Quantity>& lower,
                            const std::optional<Quantity>& upper, int from, int to) {
       const double low = lower ? value(*lower, "the lower bound of " + name) : -infinite;

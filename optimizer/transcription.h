@@ -102,6 +102,7 @@ struct Transcription {
   std::vector<int> from;    // the coefficient of each degree of freedom that stands at `first`
   std::vector<char> fixed;  // one an unknown: data, not to be moved
   std::vector<double> lower, upper;  // of each unknown, infinite where there is none
+  std::vector<double> most_change;   // of each unknown in one iteration (`damp`), infinite where there is none
   std::vector<int> functional_row;   // of each functional; -1 where it is data
   std::vector<double> elsewhere;     // what of each functional lies outside the window
   std::vector<Row> rows;

@@ -76,11 +76,11 @@ std::optional<Fault> validate(const Samples& samples, bool failed) {
   return std::nullopt;
 }
 
-std::optional<Fault> validate_dofs(const Motion& motion) {
+std::optional<Fault> validate_dofs(const Motion& motion, const std::vector<Trajectory>& dofs, const std::string& of) {
   std::unordered_set<std::string_view> names;
-  for (std::size_t i = 0; i < motion.dofs.size(); ++i) {
-    const auto& dof = motion.dofs[i];
-    const auto path = below("/dofs", i);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const auto& dof = dofs[i];
+    const auto path = below(of, i);
     if (auto fault = validate_name(dof.name, path + "/name")) return fault;
     if (!names.insert(dof.name).second) return Fault{path + "/name", "an earlier one has this name"};
     if (auto fault = validate(dof.basis, motion.start, motion.end, path + "/basis")) return fault;
@@ -90,6 +90,19 @@ std::optional<Fault> validate_dofs(const Motion& motion) {
                                                std::to_string(dof.basis.size())};
     }
     if (auto fault = all_finite(dof.coefficients, path + "/coefficients")) return fault;
+  }
+  return std::nullopt;
+}
+
+std::optional<Fault> validate_minima(const Motion& motion) {
+  for (std::size_t i = 0; i < motion.minima.size(); ++i) {
+    const auto& minimum = motion.minima[i];
+    const auto path = below("/minima", i);
+    if (auto fault = finite(minimum.objective, path + "/objective")) return fault;
+    for (std::size_t k = 0; k < minimum.starts.size(); ++k) {
+      if (minimum.starts[k] < 0) return Fault{below(path + "/starts", k), "must not be negative"};
+    }
+    if (auto fault = validate_dofs(motion, minimum.dofs, path + "/dofs")) return fault;
   }
   return std::nullopt;
 }
@@ -141,12 +154,13 @@ std::optional<Fault> validate(const Motion& motion) {
   if (auto fault = validate_named(motion.terms, "/objective/terms", term)) return fault;
   if (auto fault = measured(motion.violation, failed, "/violation/max")) return fault;
   if (auto fault = validate_violations(motion, failed)) return fault;
-  if (auto fault = validate_dofs(motion)) return fault;
+  if (auto fault = validate_dofs(motion, motion.dofs, "/dofs")) return fault;
   if (auto fault = validate_named(motion.constants, "/constants", finite)) return fault;
   if (auto fault = validate_named(motion.parameters, "/parameters", finite)) return fault;
   if (motion.samples) {
     if (auto fault = validate(*motion.samples, failed)) return fault;
   }
+  if (auto fault = validate_minima(motion)) return fault;
   return validate_record(motion, failed);
 }
 

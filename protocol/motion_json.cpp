@@ -173,6 +173,23 @@ IterationRecord record_from(const Node& node) {
           .seconds = node["seconds"].number()};
 }
 
+void write(Writer& to, const Minimum& minimum) {
+  to.object([&] {
+    to.member("objective", minimum.objective);
+    to.key("starts");
+    to.list_of(minimum.starts, [&](int start) { to.number(start); });
+    to.key("dofs");
+    to.list_of(
+        minimum.dofs, [&](const Trajectory& dof) { write(to, dof); }, Set::in_lines);
+  });
+}
+
+Minimum minimum_from(const Node& node) {
+  node.object({"objective", "starts", "dofs"});
+  return {node["objective"].number(), node["starts"].each([](const Node& start) { return start.integer(); }),
+          node["dofs"].each(dof_from)};
+}
+
 Status status_from(const Node& node) {
   std::array<std::string_view, statuses.size()> names;
   for (std::size_t i = 0; i < names.size(); ++i) names[i] = name_of(statuses[i]);
@@ -226,6 +243,11 @@ void write(Writer& to, const Motion& motion) {
           to.list_of(
               motion.record, [&](const IterationRecord& record) { write(measures, record); }, Set::in_lines);
         }
+        if (!motion.minima.empty()) {
+          to.key("minima");
+          to.list_of(
+              motion.minima, [&](const Minimum& minimum) { write(to, minimum); }, Set::in_lines);
+        }
       },
       Set::in_lines);
 }
@@ -241,7 +263,7 @@ Motion motion_from(const Node& node) {
   node["format"].choice(formats);
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
-              {"samples", "record"});
+              {"samples", "record", "minima"});
   Motion motion;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
@@ -266,6 +288,7 @@ Motion motion_from(const Node& node) {
   motion.parameters = named_numbers(node["parameters"]);
   if (const auto samples = node.find("samples")) motion.samples = samples_from(*samples);
   if (const auto record = node.find("record")) motion.record = record->each(record_from);
+  if (const auto minima = node.find("minima")) motion.minima = minima->each(minimum_from);
   return motion;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -183,8 +184,9 @@ TEST(Bspline, InsertingKnotsLeavesTheCurve) {
     auto basis = original;
     auto refined = c;
     std::uniform_real_distribution<double> within(basis.knots.front(), basis.knots.back());
-    for (int i = 0; i < 5; ++i) refined = insert_knot(basis, refined, within(random));
-    if (breakpoints(original).size() > 2) refined = insert_knot(basis, refined, breakpoints(original)[1]);  // doubled
+    for (int i = 0; i < 5; ++i) refined = insert_knots(basis, refined, std::array{within(random)});
+    if (breakpoints(original).size() > 2)
+      refined = insert_knots(basis, refined, std::array{breakpoints(original)[1]});  // doubled
     EXPECT_EQ(refined.size(), static_cast<std::size_t>(basis.size()));
     EXPECT_TRUE(std::ranges::is_sorted(basis.knots));
     for (const double t : some_times(original, random)) {

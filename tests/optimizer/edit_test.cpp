@@ -170,11 +170,11 @@ TEST(Edits, NothingToFindIsRefused) { EXPECT_THROW(run(compiled("time [0, 1]\n")
 TEST(Edits, ARefusedActionKeepsTheMotionReached) {
   Problem problem =
       compiled("time [0, 1]\ntrajectory bspline spans 4\ndof x\nconstrain x = 1 at 1\nminimize integral(x''^2)\n");
-  problem.actions = {{Solve{}, {6, 1}}, {Shake{}, {7, 1}}};
+  problem.actions = {{Solve{}, {6, 1}}, {Adapt{}, {7, 1}}};
   const Motion motion = run(problem, {});
   EXPECT_EQ(motion.status, Status::stopped);
   EXPECT_NE(motion.message.find("line 7"), std::string::npos) << motion.message;
-  EXPECT_NE(motion.message.find("shake"), std::string::npos) << motion.message;
+  EXPECT_NE(motion.message.find("adapt"), std::string::npos) << motion.message;
   EXPECT_NEAR(motion.dofs[0].coefficients.back(), 1, 1e-8);
 }
 

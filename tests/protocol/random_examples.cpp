@@ -438,6 +438,7 @@ Motion random_motion(std::uint32_t seed) {
   for (int i = below(random, 4); i > 0; --i) {
     motion.record.push_back({below(random, 1000), value(), value(), value(), value(), value(), value()});
   }
+  for (int i = below(random, 3); i > 0; --i) motion.minima.push_back({value(), {below(random, 9), 7}, motion.dofs});
   if (!coin(random)) return motion;
   Samples samples;
   for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());

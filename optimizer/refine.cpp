@@ -1,0 +1,92 @@
+#include "optimizer/refine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/bspline.h"
+#include "common/diagnostic.h"
+#include "optimizer/batch.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+// Points of a span at which two curves are compared.
+constexpr int points = 8;
+
+// Spans shorter than this, of the animation's time, cannot be told apart from rounding.
+constexpr double shortest_span = 1e-9;
+
+// A problem of more coefficients is a mistake, not a motion.
+constexpr int most_coefficients = 1 << 20;
+
+}  // namespace
+
+void halve(Basis& basis, const std::vector<double>& spans, std::vector<double>& curve) {
+  const auto knots = breakpoints(basis);
+  const double least = shortest_span * (knots.back() - knots.front());
+  std::vector<double> middles;
+  for (const double from : spans) {
+    const double to = *std::ranges::upper_bound(knots, from);
+    if (to - from < least) {
+      throw InputError(
+          fmt::format("the knot span at {} s is only {:.3g} s long and cannot be halved", from, to - from));
+    }
+    middles.push_back(from + (to - from) / 2);
+  }
+  curve = insert_knots(basis, curve, middles);
+}
+
+void refine(Problem& problem, const Constants& constants, const Refine& action, Curves& curves) {
+  double a = problem.start, b = problem.end;
+  if (action.interval) {
+    a = evaluate(problem, constants, action.interval->from, "refine");
+    b = evaluate(problem, constants, action.interval->to, "refine");
+    if (!(a < b) || b <= problem.start || a >= problem.end) {
+      throw InputError(fmt::format("the interval [{}, {}] does not meet the animation's time, [{}, {}]", a, b,
+                                   problem.start, problem.end));
+    }
+  }
+  std::vector<char> named(problem.dofs.size(), action.dofs.empty());
+  for (const std::string& name : action.dofs) {
+    const auto dof = static_cast<std::size_t>(index_of(problem, name));
+    if (dof == named.size()) throw InputError(fmt::format("there is no degree of freedom '{}'", name));
+    named[dof] = 1;
+  }
+  for (int round = 0; round < action.times; ++round) {
+    int coefficients = 0;
+    for (std::size_t dof = 0; dof < named.size(); ++dof) {
+      Basis& basis = problem.dofs[dof].basis;
+      if (named[dof]) {
+        const auto knots = breakpoints(basis);
+        std::vector<double> spans;
+        for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+          if (knots[k] < b && knots[k + 1] > a) spans.push_back(knots[k]);
+        }
+        halve(basis, spans, curves[dof]);
+      }
+      coefficients += basis.size();
+      if (coefficients > most_coefficients) {
+        throw InputError(fmt::format("more than {} coefficients: refine fewer times", most_coefficients));
+      }
+    }
+  }
+}
+
+std::vector<double> spans_that_differ(const Basis& basis, const std::vector<double>& a, const std::vector<double>& b,
+                                      double tolerance) {
+  const auto knots = breakpoints(basis);
+  std::vector<double> spans;
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    double largest = 0;
+    for (int i = 0; i <= points; ++i) {
+      const double t = knots[k] + (knots[k + 1] - knots[k]) * i / points;
+      largest = std::max(largest, std::abs(value(basis, a, t) - value(basis, b, t)));
+    }
+    if (largest > tolerance) spans.push_back(knots[k]);
+  }
+  return spans;
+}
+
+}  // namespace spacetime::optimizer

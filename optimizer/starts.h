@@ -1,0 +1,33 @@
+// Many starts, over the cores, and the distinct minima they end in.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "optimizer/newton.h"
+
+namespace spacetime::optimizer {
+
+// How one start ended.
+struct Ending {
+  NewtonState state;
+  StepResult result = StepResult::stepped;  // `stepped`: the iterations allowed were used up, or it was stopped
+};
+
+// Solves from each start by itself, some at a time in threads of their own.  The endings do not depend on how many
+// threads there are.  `wait` is called in this thread, again and again, with the number of starts that have ended;
+// once it returns false the others end where they are.
+std::vector<Ending> solve_from(const Transcription& transcription, const Layout& layout,
+                               const std::vector<std::vector<double>>& starts, int iterations, double tolerance,
+                               int threads, const std::function<bool(int ended)>& wait);
+
+// Whether the first is the better end: feasible before not, converged before not, then the smaller objective.
+bool better(const Ending& a, const Ending& b, double tolerance);
+
+// Starts that ended at the same minimum, best first: their indices.  Two are the same where their objectives agree to
+// a millionth and their unknowns to a hundredth.
+std::vector<std::vector<int>> distinct(const std::vector<Ending>& endings, double tolerance);
+
+}  // namespace spacetime::optimizer
