@@ -10,6 +10,7 @@
 #include "optimizer/session.h"
 #include "protocol/action_json.h"
 #include "protocol/check.h"
+#include "protocol/memory.h"
 #include "protocol/motion_json.h"
 #include "protocol/openrpc.h"
 #include "protocol/problem_json.h"
@@ -88,6 +89,9 @@ struct Snapshot {
 struct Run {
   Solve rest;     // what is left of it, an `iterate` being a solve with that many iterations
   int since = 0;  // the iteration at which its last edit, or itself, began
+  bool edited = false;
+
+  bool many() const { return rest.starts > 1; }  // its starts go on at their own pace
 };
 
 PlacedAction placed(const Solve& solve) {
@@ -116,7 +120,7 @@ class Peer {
     Session& session = present();
     Problem problem = checked_problem(params["problem"]);
     session.update(std::move(problem));
-    write_log(result, {});
+    write_edit(result, {});
   }
 
   void act(const Node& params, Writer& result, Call& call) {
@@ -129,7 +133,7 @@ class Peer {
     }
     if (is_edit(asked.action)) {
       session.perform(asked.action);
-      return write_log(result, {asked});
+      return write_edit(result, {asked});
     }
     SPACETIME_ASSERT(!run_);
     run(asked.action, result, call);
@@ -152,7 +156,7 @@ class Peer {
     const Motion motion = motion_from(params["motion"]);
     if (const auto fault = validate(motion)) throw DocumentError("params", "/motion" + fault->path, fault->message);
     session.set_motion(motion);
-    write_log(result, {});
+    write_edit(result, {});
   }
 
   void sample(const Node& params, Writer& result) {
@@ -230,7 +234,7 @@ class Peer {
     result.member("iteration", iteration);
     result.key("log");
     result.list([&] {
-      if (run_ && iteration > run_->since) {
+      if (run_ && !run_->many() && iteration > run_->since) {
         Solve part = run_->rest;
         part.iterations = iteration - run_->since;
         write(result, placed(part));
@@ -239,6 +243,11 @@ class Peer {
       }
       for (const PlacedAction& action : done) write(result, action);
     });
+  }
+
+  void write_edit(Writer& result, std::vector<PlacedAction> done) {
+    if (run_) run_->edited = true;
+    write_log(result, std::move(done));
   }
 
   void run(const Action& action, Writer& result, Call& call) {
@@ -252,6 +261,10 @@ class Peer {
     };
     Watch watch;
     watch.progress = show;
+    watch.around = [account = protocol::account_of_thread()](const auto& work) {
+      const protocol::Sharing sharing(account);
+      work();
+    };
     watch.go_on = [&] {
       stopped = !call.go_on();
       return !stopped;
@@ -275,9 +288,10 @@ class Peer {
     write_measure(result, "violation", record.violation);
     result.member("seconds", record.seconds);
     // A run that was stopped amounts to its iterations; one that ended by itself to what it was asked, less what had
-    // been done before its last edit.
+    // been done before its last edit.  Many starts that were stopped are not logged: how far each had come is chance;
+    // nor those that an edit ended, since nothing came of them.
     std::vector<PlacedAction> rest;
-    if (!stopped) {
+    if (!stopped && !(run_->many() && run_->edited)) {
       rest.push_back(placed(run_->rest));
       run_->since = session.iterations();
     }

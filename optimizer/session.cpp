@@ -252,6 +252,7 @@ void Session::reshape(const Curves& curves) {
 void Session::restart(std::vector<double> x, const Carried* carried) {
   const int iterations = state_.iterations;
   const Seconds seconds = state_.seconds;
+  ++restarts_;
   minima_.clear();
   objective_outside_ = 0;
   x_ = std::move(x);
@@ -284,6 +285,7 @@ void Session::iterate(int limit, double tolerance, const Watch& watch) {
 // The present motion, and others shaken from it with the seeds 1, 2, ...  The best end is gone on from.
 void Session::solve_from_many(int starts, int limit, double tolerance, const Watch& watch) {
   const std::shared_ptr<Numerics> numerics = now_;  // an edit while threads are at work puts another in its place
+  const int restarts = restarts_;                   // ... or the motion elsewhere
   const Transcription& t = numerics->t();
   std::vector<std::vector<double>> points{state_.x};
   const Curves own = curves();
@@ -297,11 +299,13 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   }
   bool stopped = false;
   const int threads = watch.threads > 0 ? watch.threads : static_cast<int>(std::thread::hardware_concurrency());
-  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, threads, [&](int) {
-    stopped |= (watch.go_on && !watch.go_on()) || now_ != numerics;
+  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, {threads, watch.around}, [&](int) {
+    stopped |= (watch.go_on && !watch.go_on()) || restarts_ != restarts;
     return !stopped;
   });
-  if (now_ != numerics) return stop("Stopped: an edit ended the solve from many starts, and the motion is as it was.");
+  if (restarts_ != restarts) {
+    return stop("Stopped: an edit ended the solve from many starts, and no start has moved the motion.");
+  }
 
   int iterations = state_.iterations;
   Seconds seconds = state_.seconds;
@@ -373,12 +377,14 @@ void Session::iterate_by(const Make& make, int limit, double tolerance, const Wa
 
 void Session::iterate(int limit, double tolerance, const Watch& watch, const Step& step) {
   judged_ = true;
+  int restarts = restarts_;
   for (int k = 0;; ++k) {
     const bool last = k == limit;
     if (!last && watch.go_on && !watch.go_on()) {
       return stop("Interrupted after " + count() + ". " + standing());
     }
-    const bool afresh = !judged_;
+    const bool afresh = restarts_ != restarts;
+    restarts = restarts_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
     if (last && !reached(tolerance)) {
       outcome_ = {Status::stopped, "Stopped after " + count() + ", as many as were allowed. " + standing()};

@@ -22,10 +22,11 @@ namespace spacetime::optimizer {
 
 // Who looks on while an action iterates.
 struct Watch {
-  int threads = 0;                                       // for many starts; as many as there are cores where 0
-  std::function<void(const IterationRecord&)> progress;  // after each iteration
+  int threads = 0;                                                // for many starts; as many as there are cores where 0
+  std::function<void(const std::function<void()>& work)> around;  // called in each of those threads; see Crew
+  std::function<void(const IterationRecord&)> progress;           // after each iteration
   // Asked before each iteration; false ends the action, and the motion reached is kept.  It may perform edits on the
-  // session (is_edit), which then take effect with the iteration that follows.
+  // session (is_edit), which then take effect with the iteration that follows; a solve from many starts ends.
   std::function<bool()> go_on;
 };
 
@@ -141,6 +142,7 @@ class Session {
   std::vector<double> x_;          // all unknowns; what is free is in state_
   double objective_outside_ = 0;   // the part of the objective that the window leaves as it is
   NewtonState state_;
+  int restarts_ = 0;  // how often something else than a step has put the motion where it is
   Outcome outcome_;
   std::vector<Minimum> minima_;  // of the last solve, where it had many starts
   bool judged_ = false;          // the outcome speaks of the present point

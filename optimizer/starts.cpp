@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <thread>
 
 namespace spacetime::optimizer {
@@ -24,14 +25,16 @@ bool same(const Ending& a, const Ending& b) {
 
 std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
                                const std::vector<std::vector<double>>& starts, int iterations, double tolerance,
-                               int threads, const std::function<bool(int ended)>& wait) {
+                               const Crew& crew, const std::function<bool(int ended)>& wait) {
   const int count = static_cast<int>(starts.size());
   std::vector<Ending> endings(starts.size());
   std::atomic<int> next = 0, ended = 0;
   std::atomic<bool> stop = false;
   const auto work = [&] {
     Newton newton(t, layout);
-    for (int k = next++; k < count; k = next++) {
+    while (!stop || next == 0) {  // the first is always begun: something has to be gone on from
+      const int k = next++;
+      if (k >= count) return;
       Ending& ending = endings[k];
       ending.state = newton.start(starts[k]);
       for (int i = 0; i < iterations && !stop && ending.result == StepResult::stepped; ++i) {
@@ -43,15 +46,33 @@ std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
       ++ended;
     }
   };
+  std::vector<std::exception_ptr> failures(std::clamp(crew.threads, 1, count));
   {
     std::vector<std::jthread> workers;
-    for (int k = 0; k < std::clamp(threads, 1, count); ++k) workers.emplace_back(work);
-    for (int known = -1; known < count;) {
+    struct Stopper {  // however this ends, nobody is waited for who has not been told
+      std::atomic<bool>& stop;
+      ~Stopper() { stop = true; }
+    } stopper{stop};
+    for (std::exception_ptr& failure : failures) {
+      workers.emplace_back([&] {
+        try {
+          crew.around ? crew.around(work) : work();
+        } catch (...) {
+          failure = std::current_exception();
+          stop = true;
+        }
+      });
+    }
+    for (int known = -1; known < count && !stop;) {
       known = ended;
-      if (!stop && !wait(known)) stop = true;
-      if (known < count) std::this_thread::sleep_for(pause);
+      if (!wait(known)) stop = true;
+      if (known < count && !stop) std::this_thread::sleep_for(pause);
     }
   }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  endings.resize(std::min(next.load(), count));
   return endings;
 }
 

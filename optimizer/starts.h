@@ -16,12 +16,20 @@ struct Ending {
   StepResult result = StepResult::stepped;  // `stepped`: the iterations allowed were used up, or it was stopped
 };
 
+// Who does the work.
+struct Crew {
+  int threads = 1;
+  // Called in each thread with what is to be done there, where it is not empty.
+  std::function<void(const std::function<void()>& work)> around;
+};
+
 // Solves from each start by itself, some at a time in threads of their own.  The endings do not depend on how many
 // threads there are.  `wait` is called in this thread, again and again, with the number of starts that have ended;
-// once it returns false the others end where they are.
+// once it returns false the others end where they are, and those that had not begun are left out, at the end.  What is
+// thrown in a thread ends all and is thrown here.
 std::vector<Ending> solve_from(const Transcription& transcription, const Layout& layout,
                                const std::vector<std::vector<double>>& starts, int iterations, double tolerance,
-                               int threads, const std::function<bool(int ended)>& wait);
+                               const Crew& crew, const std::function<bool(int ended)>& wait);
 
 // Whether the first is the better end: feasible before not, converged before not, then the smaller objective.
 bool better(const Ending& a, const Ending& b, double tolerance);

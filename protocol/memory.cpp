@@ -80,8 +80,10 @@ Accounting::~Accounting() {
   book().closed.push_back(&account_);
 }
 
-Unpaid::Unpaid() : before_(std::exchange(paying, nullptr)) {}
-Unpaid::~Unpaid() { paying = before_; }
+Account* account_of_thread() { return paying; }
+
+Sharing::Sharing(Account* account) : before_(std::exchange(paying, account)) {}
+Sharing::~Sharing() { paying = before_; }
 
 }  // namespace spacetime::protocol
 

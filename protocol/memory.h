@@ -32,16 +32,25 @@ class Accounting {
   Account& account_;
 };
 
-// As long as it lives, its thread allocates for nobody: so that whoever is told of an exceeded account is told.
-class Unpaid {
+// The account for which this thread allocates; null where it is nobody's.
+Account* account_of_thread();
+
+// As long as it lives, its thread allocates for another's account.  What Accounting opened that one must live longer.
+class Sharing {
  public:
-  Unpaid();
-  ~Unpaid();
-  Unpaid(const Unpaid&) = delete;
-  Unpaid& operator=(const Unpaid&) = delete;
+  explicit Sharing(Account* account);
+  ~Sharing();
+  Sharing(const Sharing&) = delete;
+  Sharing& operator=(const Sharing&) = delete;
 
  private:
   Account* before_;
+};
+
+// As long as it lives, its thread allocates for nobody: so that whoever is told of an exceeded account is told.
+class Unpaid : Sharing {
+ public:
+  Unpaid() : Sharing(nullptr) {}
 };
 
 }  // namespace spacetime::protocol

@@ -1,4 +1,5 @@
 """Runs: cancelled, edited while they go on, and replayed from their logs."""
+import json
 import random
 import statistics
 import time
@@ -174,16 +175,78 @@ class Runs(unittest.TestCase):
             busy.peer.notify("$/cancelRequest", id=run)
             self.assertEqual(busy.peer.answer(run)["result"]["status"], "stopped")
 
+    def test_an_edit_and_a_question_at_once_reach_every_method(self):
+        for method in ("newton", "sqp92", "bfgs"):
+            with peer.Daemon("optimizer") as daemon:
+                session = Session(daemon)
+                session.load(self.problem)
+                run = session.peer.start("action/do", action={"action": "solve", "method": method, "tolerance": 1e-300,
+                                                              "iterations": 60})
+                session.wait_for_progress(3)
+                asked = [{"jsonrpc": "2.0", "id": "edit", "method": "action/do",
+                          "params": {"action": {"action": "set", "constant": "BasketX", "value": 2.8}}},
+                         {"jsonrpc": "2.0", "id": "question", "method": "motion/get"}]
+                session.peer.send_raw(b"".join(peer.framed(json.dumps(message).encode(), "lines") for message in asked))
+                session.note(session.peer.answer("edit"))
+                self.assertIn("Going on", session.peer.answer("question")["result"]["motion"]["message"])
+                session.note(session.peer.answer(run))
+                self.assertEqual(len(session.log), 3, "the edit has come after the run")
+                self.assertEqual(without_words(self.replayed(session.log)), without_words(session.motion()), method)
+
+    def test_an_edit_ends_a_solve_from_many_starts_and_stays(self):
+        edits = [("action/do", {"action": {"action": "set", "constant": "BasketX", "value": 2.8}}),
+                 ("action/do", {"action": {"action": "shake", "amplitude": 0.1, "seed": 5}}),
+                 ("action/do", {"action": {"action": "reset"}})]
+        for method, params in edits:
+            with peer.Daemon("optimizer") as daemon:
+                session = Session(daemon)
+                session.load(self.problem)
+                session.do(action="iterate", iterations=2)
+                run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "starts": 1000})
+                session.note(session.peer.answer(session.peer.start(method, **params)))
+                outcome = session.note(session.peer.answer(run))
+                self.assertEqual((outcome["status"], outcome["log"]), ("stopped", []))
+                self.assertIn("an edit ended", outcome["message"])
+                self.assertEqual(session.log, [{"action": "iterate", "iterations": 2}, params["action"]])
+                self.assertEqual(without_words(self.replayed(session.log)), without_words(session.motion()))
+
+    def test_a_cancelled_solve_from_many_starts_is_not_logged(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "starts": 1000})
+            session.motion()  # the run has begun
+            session.peer.notify("$/cancelRequest", id=run)
+            outcome = session.note(session.peer.answer(run))
+            self.assertEqual((outcome["status"], outcome["log"]), ("stopped", []))
+            self.assertIn("Interrupted", outcome["message"])
+
+    def test_threads_of_many_starts_allocate_for_their_session(self):
+        with peer.Daemon("optimizer", options=["--limit-memory", "60e6"]) as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            run = session.peer.start("action/do", action={"action": "solve", "starts": 1000, "iterations": 1})
+            self.assertEqual(session.peer.answer(run)["error"]["data"]["limit"], "memory")
+            self.assertEqual(session.do(action="iterate", iterations=1)["iteration"], 1)
+
     def test_a_checkpoint_continues_to_the_same_bits(self):
         with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
             session, later = Session(daemon), Session(another)
             session.load(self.problem)
+            window = {"action": "window", "from": 0.2, "to": 1.5}
+            moved = {"action": "set", "constant": "BasketX", "value": 2.8}
+            session.do(**window)
             session.do(action="iterate", iterations=9)
             checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
-            session.do(action="solve")
             later.load(self.problem)
+            later.do(**window)
             later.peer.ask("motion/set", motion=checkpoint)
-            later.do(action="solve")
+            for one in (session, later):  # edits carry multipliers over: there must be the same in both
+                one.do(**moved)
+                one.do(action="iterate", iterations=3)
+                one.do(action="refine", dofs=["arm.elbow"])
+                one.do(action="window")
+                one.do(action="solve")
             self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
 
 
