@@ -1,5 +1,6 @@
 #include "protocol/stream.h"
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -130,32 +131,35 @@ class StandardStream final : public Stream {
   explicit StandardStream(asio::io_context& context) {
     std::array<int, 2> pair{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
-    inner_ = pair[1];
+    const int inner = pair[1];
     socket_ = std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, pair[0]));
     // The first ends with standard input, which may be never: nobody waits for it, and it uses nothing of this object.
-    std::thread([inner = dup(inner_)] {
+    std::thread([inner = ::fcntl(inner, F_DUPFD_CLOEXEC, 0)] {
       copy_all(STDIN_FILENO, inner, true);
       ::shutdown(inner, SHUT_WR);
       ::close(inner);
     }).detach();
-    output_ = std::thread([inner = inner_] {
+    output_ = std::thread([inner] {
       copy_all(inner, STDOUT_FILENO, false);
       ::shutdown(inner, SHUT_RDWR);  // standard output takes no more: whoever writes is to know
+      ::close(inner);
     });
   }
   ~StandardStream() override {
     socket_->close();
-    output_.join();
-    ::close(inner_);
+    cut_ ? output_.detach() : output_.join();  // whoever does not read standard output would hold us up for ever
   }
   void read_some(std::span<char> into, Done done) override { socket_->read_some(into, std::move(done)); }
   void write_all(std::string_view bytes, Done done) override { socket_->write_all(bytes, std::move(done)); }
-  void close() override { socket_->close(); }
+  void close() override {
+    cut_ = true;
+    socket_->close();
+  }
   void part() override { socket_->close(); }
 
  private:
   std::unique_ptr<SocketStream> socket_;
-  int inner_ = -1;
+  bool cut_ = false;
   std::thread output_;
 };
 
@@ -191,7 +195,10 @@ class SocketListener final : public Listener {
     }
   }
   ~SocketListener() override {
-    if (!owned_path_.empty()) ::unlink(owned_path_.c_str());
+    struct stat status {};  // by now another's socket may be there
+    if (!owned_path_.empty() && ::lstat(owned_path_.c_str(), &status) == 0 && status.st_ino == owned_inode_) {
+      ::unlink(owned_path_.c_str());
+    }
   }
 
   void accept(std::function<void(std::unique_ptr<Stream>)> accepted,
@@ -243,6 +250,7 @@ class SocketListener final : public Listener {
     }
     ::umask(before);
     owned_path_ = path;
+    if (::lstat(path.c_str(), &status) == 0) owned_inode_ = status.st_ino;
   }
 
   void listen_on_port() {
@@ -271,8 +279,8 @@ class SocketListener final : public Listener {
       if (error) {  // too many open files, or a connection that is gone already
         refused_(error.message());
         again_.expires_after(std::chrono::milliseconds(100));
-        again_.async_wait([this](boost::system::error_code stopped) {
-          if (!stopped) accept_next();
+        again_.async_wait([this, alive](boost::system::error_code stopped) {
+          if (!stopped && !alive.expired()) accept_next();
         });
         return;
       }
@@ -315,6 +323,7 @@ class SocketListener final : public Listener {
   Address address_;
   std::shared_ptr<asio::ssl::context> tls_;
   std::string owned_path_;
+  ino_t owned_inode_ = 0;
   int handshakes_ = 0;
   std::shared_ptr<int> alive_ = std::make_shared<int>();  // for what is called back after this is destroyed
   std::function<void(std::unique_ptr<Stream>)> accepted_;

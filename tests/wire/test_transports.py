@@ -1,5 +1,6 @@
 """How daemons come and go: sockets and their modes, ends of input, signals, dying parents."""
 import os
+import select
 import signal
 import socket
 import stat
@@ -38,6 +39,19 @@ class Sockets(unittest.TestCase):
                 third.terminate()
                 self.assertEqual(third.wait(peer.PATIENCE), 0)
             self.assertFalse(os.path.exists(path))
+
+    def test_a_socket_that_has_been_replaced_is_left_alone(self):
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "socket")
+            with self.serve(path) as first:
+                first.stderr.readline()
+                os.rename(path, path + ".old")
+                with self.serve(path) as second:
+                    second.stderr.readline()
+                    first.terminate()
+                    self.assertEqual(first.wait(peer.PATIENCE), 0)
+                    self.assertTrue(os.path.exists(path))
+                    second.terminate()
 
     def test_a_file_is_not_taken_for_a_socket(self):
         with tempfile.NamedTemporaryFile() as file, self.serve(file.name) as daemon:
@@ -80,6 +94,15 @@ class Ends(unittest.TestCase):
                     self.assertEqual(connection.answer(run)["result"]["status"], "stopped")
                     self.assertEqual(connection.rest(), [])
                     self.assertEqual(daemon.process.wait(peer.PATIENCE), 0)
+
+    def test_a_signal_ends_a_daemon_whose_output_nobody_reads(self):
+        with peer.Daemon("symbolic") as daemon:
+            requests = b'{"jsonrpc": "2.0", "id": 1, "method": "rpc.discover"}\n' * 1000
+            os.set_blocking(daemon.process.stdin.fileno(), False)
+            while select.select([], [daemon.process.stdin], [], 0.5)[1]:  # until the daemon reads no more
+                daemon.process.stdin.write(requests)
+            daemon.process.send_signal(signal.SIGTERM)
+            self.assertEqual(daemon.process.wait(peer.PATIENCE), 0)
 
     def test_a_peer_that_vanishes_ends_its_run_alone(self):
         with peer.Daemon("optimizer", "tcp", ["--limit-sessions", "2"]) as daemon:
