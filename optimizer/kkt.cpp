@@ -10,14 +10,21 @@ namespace {
 // Regularisation of unknowns, relative to the mean curvature: gives a pivot to what no term of the objective moves.
 constexpr double unknown_regularisation = 1e-9;
 
+// Likewise of limits and soft rows: what they pull on unknowns stays within so many times those's own curvature, or the
+// digits of everything else would be lost in it.
+constexpr double compliant_regularisation = 1e-10;
+
+// The least curvature of an unknown that counts in a row's size, relative to the mean.
+constexpr double least_curvature = 1e-6;
+
 // Regularisation of hard rows, relative to the row's size A W^-1 A^T; a row whose size is below `row_floor` of the
 // largest counts as that large, so that a vanishing gradient (an arm that hangs straight) asks for no endless step.
 constexpr double row_regularisation = 1e-8;
-constexpr double row_floor = 1e-4;
+constexpr double row_floor = 1e-8;
 
 // Inertia correction: the shift's unit is this fraction of the mean curvature; the first try, its growth, its decay.
 constexpr double shift_unit = 1e-3;
-constexpr double first_shift = 1e-2, least_shift = 1e-4, most_shift = 1e20;
+constexpr double first_shift = 1e-2, least_shift = 1e-4, most_shift = 1e12;
 constexpr double first_growth = 10, growth = 3;
 
 // Refinement ends when the residual is this small against the right side, or stops falling by half.
@@ -54,12 +61,23 @@ Eigen::VectorXd Kkt::row_sizes(const BorderedMatrix& jacobian, const Eigen::Vect
   return sizes.cwiseMax(largest > 0 ? row_floor * largest : 1.0);
 }
 
+// What soft rows and limits pull on an unknown: A_ri^2 / E_r each.
+Eigen::VectorXd Kkt::pulled_curvature(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const {
+  Eigen::VectorXd curvature = Eigen::VectorXd::Zero(jacobian.size());
+  for_each_entry(jacobian, [&](int i, int j, double a) {
+    if (a == 0 || i == j) return;
+    if (role_[i] == Role::compliant) curvature[j] -= a * a / diagonal[i];
+    if (role_[j] == Role::compliant) curvature[i] -= a * a / diagonal[j];
+  });
+  return curvature;
+}
+
 // The matrix without shift and regularisation, and what regularisation is to be.
 void Kkt::assemble(const Linearisation& linear, const Eigen::VectorXd& diagonal) {
   exact_ = linear.hessian;
   exact_ += linear.jacobian;
 
-  Eigen::VectorXd curvature(exact_.size());
+  Eigen::VectorXd curvature = Eigen::VectorXd::Zero(exact_.size());
   double sum = 0;
   for (int k = 0; k < exact_.size(); ++k) {
     curvature[k] = std::abs(linear.hessian.on_diagonal(k));
@@ -69,14 +87,17 @@ void Kkt::assemble(const Linearisation& linear, const Eigen::VectorXd& diagonal)
   const double mean = sum > 0 ? sum / unknowns : 1;
   scale_ = shift_unit * mean;
   for (int k = 0; k < exact_.size(); ++k) {
-    if (role_[k] == Role::unknown) curvature[k] = std::max(curvature[k] + diagonal[k], 1e-6 * mean);
+    if (role_[k] == Role::unknown) curvature[k] = std::max(curvature[k] + diagonal[k], least_curvature * mean);
     exact_.add(k, k, diagonal[k]);
   }
 
-  vanishing_ = -row_regularisation * row_sizes(linear.jacobian, curvature);
+  const Eigen::VectorXd sizes = row_sizes(linear.jacobian, curvature + pulled_curvature(linear.jacobian, diagonal));
+  const Eigen::VectorXd unpulled = row_sizes(linear.jacobian, curvature);
+  vanishing_.resize(exact_.size());
   for (int k = 0; k < exact_.size(); ++k) {
     if (role_[k] == Role::unknown) vanishing_[k] = unknown_regularisation * mean;
-    if (role_[k] == Role::compliant) vanishing_[k] = 0;
+    if (role_[k] == Role::equation) vanishing_[k] = -row_regularisation * sizes[k];
+    if (role_[k] == Role::compliant) vanishing_[k] = -compliant_regularisation * unpulled[k];
   }
 }
 

@@ -58,6 +58,7 @@ class Kkt {
   std::optional<double> factor(double hint, double at_least);
   bool regularise_and_factor(double shift);
   Eigen::VectorXd row_sizes(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const;
+  Eigen::VectorXd pulled_curvature(const BorderedMatrix& jacobian, const Eigen::VectorXd& diagonal) const;
   std::optional<Eigen::VectorXd> solve_pivoted(const Eigen::VectorXd& right) const;
 
   std::vector<Role> role_;
