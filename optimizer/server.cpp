@@ -155,6 +155,9 @@ class Peer {
     Session& session = present();
     const Motion motion = motion_from(params["motion"]);
     if (const auto fault = validate(motion)) throw DocumentError("params", "/motion" + fault->path, fault->message);
+    double unknowns = 0;
+    for (const Trajectory& dof : motion.dofs) unknowns += dof.basis.size();
+    if (unknowns > allowance_.unknowns) throw beyond("unknowns", allowance_, unknowns);
     session.set_motion(motion);
     write_edit(result, {});
   }

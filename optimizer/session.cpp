@@ -211,7 +211,21 @@ void Session::update(Problem problem) {
 }
 
 void Session::set_motion(const Motion& motion) {
-  auto x = start_of(now_->problem, now_->whole, &motion);
+  // Its knots come with it: those that a refinement chose are nowhere else.
+  Edited next = edited_;
+  bool other = false;
+  for (Dof& dof : next.problem.dofs) {
+    const auto from = std::ranges::find(motion.dofs, dof.name, &Trajectory::name);
+    if (from == motion.dofs.end() || from->basis == dof.basis) continue;
+    const auto &knots = from->basis.knots, &own = dof.basis.knots;
+    if (knots.front() != own.front() || knots.back() != own.back()) continue;
+    dof.basis = from->basis;
+    other = true;
+  }
+  auto numerics = other ? std::make_shared<Numerics>(in_effect(next, declared_), setting_) : now_;
+  auto x = start_of(numerics->problem, numerics->whole, &motion);
+  if (other) edited_ = std::move(next);
+  now_ = std::move(numerics);
   state_.iterations = motion.iterations;
   restart(std::move(x));
 }

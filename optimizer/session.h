@@ -54,8 +54,9 @@ class Session {
 
   // The motion as it stands, with what the last action came to.  One edited since is judged first, by the tolerance.
   Motion motion(double tolerance = Solve{}.tolerance);
-  // Goes on from this motion, as far as names agree, and from its number of iterations: from here on the bits are
-  // those of any other session with this problem and this motion.
+  // Goes on from this motion, as far as names agree, on its knots where they span the same time, and from its number of
+  // iterations: from here on the bits are those of any other session with this problem and this motion.  Throws
+  // InputError; all is then as it was before.
   void set_motion(const Motion& motion);
 
   // Every plotted expression and body pose, at times (s) within the problem's span.

@@ -249,6 +249,23 @@ class Runs(unittest.TestCase):
                 one.do(action="solve")
             self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
 
+    def test_a_checkpoint_brings_its_knots(self):
+        with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
+            session, later = Session(daemon), Session(another)
+            refine = {"action": "refine", "tolerance": 1e-3}  # which spans it halves depends on the motion
+            session.load(self.problem)
+            session.do(action="iterate", iterations=9)
+            session.do(**refine)
+            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            later.load(self.problem)
+            later.do(**refine)
+            self.assertNotEqual([dof["basis"] for dof in later.motion()["dofs"]],
+                                [dof["basis"] for dof in checkpoint["dofs"]])
+            later.peer.ask("motion/set", motion=checkpoint)
+            for one in (session, later):
+                one.do(action="iterate", iterations=5)
+            self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
+
 
 if __name__ == "__main__":
     unittest.main()
