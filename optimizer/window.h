@@ -1,4 +1,4 @@
-// A window's unknowns among those of the whole.  [Cohen92 §3.7]
+// A window's unknowns among those of the whole.  [Cohen92 §3, §4.2]
 #pragma once
 
 #include <vector>
