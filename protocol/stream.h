@@ -22,8 +22,8 @@ class Stream {
   virtual ~Stream() = default;
   virtual void read_some(std::span<char> into, Done done) = 0;
   virtual void write_all(std::string_view bytes, Done done) = 0;  // bytes stay where they are until then
-  virtual void close() = 0;  // at once; what is under way calls back with an error
-  virtual void part() = 0;   // closes so that what was written still arrives, whatever the peer goes on sending
+  virtual void close() = 0;                                       // at once; what is under way calls back with an error
+  virtual void part() = 0;  // closes so that what was written still arrives, whatever the peer goes on sending
 };
 
 // Standard input and output, through two threads: they may be terminals, pipes or files, which block, and are shared
@@ -48,7 +48,8 @@ class Listener {
 std::unique_ptr<Listener> listen(boost::asio::io_context& context, const Address& address,
                                  const Credentials& credentials);
 
-// Connects, blocking for at most some seconds.  Throws InputError.
+// Connects, blocking for as long as the system tries, and a TLS handshake as long as the other side takes.  Throws
+// InputError.
 std::unique_ptr<Stream> connect(boost::asio::io_context& context, const Address& address,
                                 const Credentials& credentials);
 
