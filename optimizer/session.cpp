@@ -4,24 +4,17 @@
 
 #include <algorithm>
 #include <limits>
-#include <thread>
 #include <type_traits>
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
-#include "optimizer/bfgs.h"
 #include "optimizer/carry.h"
 #include "optimizer/refine.h"
 #include "optimizer/sketch.h"
-#include "optimizer/sqp92.h"
-#include "optimizer/starts.h"
 #include "optimizer/window.h"
 
 namespace spacetime::optimizer {
 namespace {
-
-// How far starts are shaken (rad or m).
-constexpr double start_amplitude = 1;
 
 [[noreturn]] void not_built(std::string_view what) { throw InputError(fmt::format("{} is not built yet", what)); }
 
@@ -81,25 +74,6 @@ void Session::declare(int action) {
 void Session::perform(const Action& action, const Watch& watch) {
   std::visit([&](const auto& which) { act(which, watch); }, action);
 }
-
-void Session::act(const Solve& solve, const Watch& watch) {
-  minima_.clear();
-  if (solve.starts > 1 && solve.method != Solve::Method::newton) {
-    throw InputError("only the method 'newton' solves from many starts");
-  }
-  const int limit = solve.iterations.value_or(default_iterations);
-  switch (solve.method) {
-    case Solve::Method::newton:
-      if (solve.starts > 1) return solve_from_many(solve.starts, limit, solve.tolerance, watch);
-      return iterate(limit, solve.tolerance, watch);
-    case Solve::Method::sqp92:
-      return iterate_by([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit, solve.tolerance, watch);
-    case Solve::Method::bfgs:
-      return iterate_by([&] { return Bfgs(now_->t(), now_->layout); }, limit, solve.tolerance, watch);
-  }
-}
-
-void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
 
 void Session::act(const Reset&, const Watch&) {
   // Keyframes that were declared meanwhile count from here on.
@@ -285,161 +259,6 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
   state_.seconds.evaluate += seconds.evaluate;
   state_.seconds.factor += seconds.factor;
   judged_ = foreign_ = false;
-}
-
-void Session::iterate(int limit, double tolerance, const Watch& watch) {
-  if (foreign_) restart(unknowns());
-  iterate(limit, tolerance, watch, [&](bool) -> std::optional<Outcome> {
-    const StepResult result = now_->newton.step(state_, tolerance);
-    if (result == StepResult::stepped) return std::nullopt;
-    return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
-  });
-}
-
-// The present motion, and others shaken from it with the seeds 1, 2, ...  The best end is gone on from.
-void Session::solve_from_many(int starts, int limit, double tolerance, const Watch& watch) {
-  const std::shared_ptr<Numerics> numerics = now_;  // an edit while threads are at work puts another in its place
-  const int restarts = restarts_;                   // ... or the motion elsewhere
-  const Transcription& t = numerics->t();
-  std::vector<std::vector<double>> points{state_.x};
-  const Curves own = curves();
-  for (int seed = 1; seed < starts; ++seed) {
-    Curves shaken = own;
-    shake(numerics->problem, t.constants, numerics->freedom, Shake{{start_amplitude, {}, 0}, seed, {}}, seed, shaken);
-    auto& x = points.emplace_back(state_.x);
-    for (int dof = 0; dof < t.dofs(); ++dof) {
-      std::copy_n(shaken[dof].begin() + t.from[dof], t.first[dof + 1] - t.first[dof], x.begin() + t.first[dof]);
-    }
-  }
-  bool stopped = false;
-  const int threads = watch.threads > 0 ? watch.threads : static_cast<int>(std::thread::hardware_concurrency());
-  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, {threads, watch.around}, [&](int) {
-    stopped |= (watch.go_on && !watch.go_on()) || restarts_ != restarts;
-    return !stopped;
-  });
-  if (restarts_ != restarts) {
-    return stop("Stopped: an edit ended the solve from many starts, and no start has moved the motion.");
-  }
-
-  int iterations = state_.iterations;
-  Seconds seconds = state_.seconds;
-  std::size_t best = 0;
-  for (std::size_t k = 0; k < endings.size(); ++k) {
-    iterations += endings[k].state.iterations;
-    seconds.evaluate += endings[k].state.seconds.evaluate;
-    seconds.factor += endings[k].state.seconds.factor;
-    if (better(endings[k], endings[best], tolerance)) best = k;
-  }
-  const StepResult result = endings[best].result;
-  const auto groups = distinct(endings, tolerance);
-  std::size_t converged = 0;
-  for (const auto& group : groups) {
-    state_ = endings[group.front()].state;
-    minima_.push_back({state_.values.objective + objective_outside_, group, trajectories()});
-    converged += group.size();
-  }
-  state_ = std::move(endings[best].state);
-  state_.iterations = iterations;
-  state_.seconds = seconds;
-  judged_ = true;
-  foreign_ = false;
-  if (result == StepResult::stepped) {
-    outcome_ = {Status::stopped, (stopped ? "Interrupted after " : "Stopped after ") + count() + ". " + standing()};
-  } else {
-    outcome_ = outcome_of(result, now_->t(), now_->layout, state_, tolerance);
-    outcome_.message += standing_elsewhere(tolerance);
-  }
-  outcome_.message += fmt::format(" Of {} starts {} converged, to {} distinct minim{}.", starts, converged,
-                                  groups.size(), groups.size() == 1 ? "um" : "a");
-  if (watch.progress) watch.progress(record());
-}
-
-// By another method, which `make` makes: for the first step, and again for what edits have changed.
-template <class Make>
-void Session::iterate_by(const Make& make, int limit, double tolerance, const Watch& watch) {
-  auto method = std::make_unique<decltype(make())>(make());  // refused here, nothing is lost
-  auto state = method->start(state_.x);
-  Seconds before = state_.seconds;
-  iterate(limit, tolerance, watch, [&](bool afresh) -> std::optional<Outcome> {
-    if (afresh) {
-      try {
-        method = std::make_unique<decltype(make())>(make());
-      } catch (const InputError& error) {
-        return Outcome{Status::stopped, fmt::format("Stopped after {}: {}.", count(), error.what())};
-      }
-      state = method->start(state_.x);
-      before = state_.seconds;
-    }
-    const StepResult result = method->step(state, tolerance);
-    state_.x = state.x;
-    state_.values = state.values;
-    state_.measures = state.measures;
-    state_.condition = StepResult::stepped;
-    state_.step = state.step;
-    state_.shift_used = state.shift;
-    state_.seconds = {0, before.evaluate + state.seconds.evaluate, before.factor + state.seconds.factor};
-    foreign_ = true;
-    if (result == StepResult::exhausted) {
-      const std::string worst = worst_of(violations(now_->t(), state.x, state.values));
-      return Outcome{Status::stopped, method->ending(state) + "; " + worst + "."};
-    }
-    if (result != StepResult::stepped) return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
-    ++state_.iterations;
-    return std::nullopt;
-  });
-}
-
-void Session::iterate(int limit, double tolerance, const Watch& watch, const Step& step) {
-  judged_ = true;
-  int restarts = restarts_;
-  for (int k = 0;; ++k) {
-    const bool last = k == limit;
-    if (!last && watch.go_on && !watch.go_on()) {
-      return stop("Interrupted after " + count() + ". " + standing());
-    }
-    const bool afresh = restarts_ != restarts;
-    restarts = restarts_;
-    judged_ = true;  // what edits have changed meanwhile is judged by what follows
-    if (last && !reached(tolerance)) {
-      outcome_ = {Status::stopped, "Stopped after " + count() + ", as many as were allowed. " + standing()};
-      return;
-    }
-    if (auto outcome = step(afresh)) {
-      outcome_ = std::move(*outcome);
-      outcome_.message += standing_elsewhere(tolerance);
-      return;
-    }
-    if (watch.progress) watch.progress(record());
-  }
-}
-
-void Session::stop(std::string message) {
-  outcome_ = {Status::stopped, std::move(message)};
-  judged_ = true;
-}
-
-bool Session::reached(double tolerance) const {
-  return state_.measures.within(tolerance) && state_.condition == StepResult::stepped;
-}
-
-std::string Session::count() const {
-  return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s");
-}
-
-std::string Session::standing() const {
-  return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",
-                     state_.measures.stationarity, worst_of(violations(now_->t(), state_.x, state_.values)));
-}
-
-// What a window leaves to be said.
-std::string Session::standing_elsewhere(double tolerance) const {
-  if (!now_->part) return "";
-  const auto x = settled();
-  Workspace workspace;
-  const auto all =
-      violations(now_->whole, x, evaluate(now_->whole, x, workspace, active_rows(now_->whole, x, workspace)));
-  const bool holds = std::ranges::all_of(all, [&](const Violation& v) { return v.max <= tolerance; });
-  return " That is within the window" + (holds ? "." : "; over the whole time " + worst_of(all) + ".");
 }
 
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
