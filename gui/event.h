@@ -1,0 +1,148 @@
+// Everything that can happen to the session: what the person does, what the daemons answer, and the clock.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gui/state.h"
+
+namespace spacetime::gui {
+
+// --- What the person does.
+
+struct Open {  // a scene file, or a session's journal
+  std::string file;
+};
+struct OpenText {  // an example or an empty scene: it has no file yet
+  std::string text;
+};
+struct Save {
+  std::string file;  // empty: where it was opened from
+};
+// Any line of the scene language, an action or a declaration: appended to the scene.  `place` and `about` tell where a
+// mistake in it is to be shown; the draft of that name goes when it is accepted.
+struct Act {
+  std::string line;
+  Notice::Place place = Notice::Place::status;
+  std::string about;
+};
+struct RunScript {};  // what the file still has to do; `solve` where there is nothing
+struct Stop {};       // ends what iterates; what it reached is kept
+struct Undo {};
+struct Redo {};
+struct GoTo {  // an entry of the log
+  int entry = 0;
+};
+// Dragging: `Steer` as often as the value changes, `Steered` when it is let go, with `keep` false to go back.
+struct Steer {
+  Steering steering;
+};
+struct Steered {
+  bool keep = true;
+};
+struct DropGhost {};
+struct Ask {  // the console: an expression to print, differentiate `by`, evaluate and count
+  std::string text, by;
+};
+
+// --- How it is looked at.
+
+struct Play {
+  bool on = true;
+};
+struct SetPlayback {
+  Playback playback;
+};
+struct Select {
+  Selection selection;
+};
+struct SetPose {  // absent: none
+  std::optional<Pose> pose;
+};
+struct CopyPose {};
+struct PastePose {
+  bool mirrored = false;
+};
+struct KeyPose {};  // keys the pose at the time shown
+struct Draft {      // absent text: the draft is dropped
+  std::string about;
+  std::optional<std::string> text;
+};
+struct SetTheme {
+  bool dark = true;
+};
+struct Dismiss {  // a notice
+  int index = 0;
+};
+struct Tick {
+  double seconds = 0;  // since the last
+};
+
+// --- What the daemons say.  `number` is the request's (effect.h); answers to requests nobody waits for any more are
+// dropped.
+
+struct DaemonIs {
+  bool symbolic = true;  // or the optimizer
+  Daemon::Condition condition = Daemon::Condition::starting;
+  std::string why;
+};
+struct Compiled {
+  int number = 0;
+  std::shared_ptr<const Scene> scene;
+};
+struct Iterated {  // progress of a run
+  int number = 0;
+  IterationRecord record;
+  std::vector<Trajectory> changed;  // curves that differ from those of the progress before
+  std::vector<std::pair<std::string, double>> parameters;
+};
+struct Logged {        // one action of an answer's log
+  std::string action;  // as JSON
+  std::string line;    // in the language, where it iterates; empty for an edit
+};
+struct Done {  // an action was performed
+  int number = 0;
+  std::vector<Logged> log;
+  bool run = false;
+  Status status = Status::stopped;
+  std::string message;
+};
+struct Reached {  // the answer to `motion/get`
+  int number = 0;
+  std::shared_ptr<const Motion> motion;
+  std::shared_ptr<const std::string> checkpoint;
+};
+struct Sampled {
+  int number = 0;
+  std::shared_ptr<const Samples> samples;
+};
+struct Answered {  // the console's
+  int number = 0;
+  std::string text;
+  bool wrong = false;
+};
+struct Acknowledged {  // whatever has no more to say than that it was done
+  int number = 0;
+};
+struct Refused {  // an error
+  int number = 0;
+  std::string message;
+};
+struct FileRead {
+  std::string file, text;
+};
+struct FileFailed {
+  std::string file, message;
+};
+struct FileWritten {
+  std::string file, text;
+};
+
+using Event = std::variant<Open, OpenText, Save, Act, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost, Ask,
+                           Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss,
+                           Tick, DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused,
+                           FileRead, FileFailed, FileWritten>;
+
+}  // namespace spacetime::gui

@@ -1,0 +1,153 @@
+// What the person sees and does, as one value: the session, what the daemons said, and how it is looked at.  Only
+// `update` (update.h) changes it; views read it; nothing here knows of windows, sockets or files.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/diagnostic.h"
+#include "common/motion.h"
+#include "common/problem.h"
+
+namespace spacetime::gui {
+
+// Where a statement stands in the scene, as the symbolic daemon tells it.
+struct Statement {
+  std::string word;  // constrain, minimize, constant, let, solve, ...
+  std::string name;  // what it declares; of unnamed constraints and objectives "constraint 3", "objective 1"
+  std::string text;  // as written
+  int line = 0;      // of its first character, from 1
+  bool operator==(const Statement&) const = default;
+};
+
+// A scene text with what came of compiling it.
+struct Scene {
+  std::string text;
+  std::shared_ptr<const Problem> problem;  // null where there are mistakes
+  std::vector<Diagnostic> diagnostics;
+  std::vector<Statement> outline;
+};
+
+// A motion as it is just now: the curves of the newest iterate, with the constants and parameters they go with.
+struct Curves {
+  std::vector<Trajectory> dofs;
+  std::vector<std::pair<std::string, double>> constants;
+  std::vector<std::pair<std::string, double>> parameters;
+  bool operator==(const Curves&) const = default;
+};
+
+// One line of the log: something that was done, in the scene language, and where it led.
+struct Entry {
+  std::string text;                               // of the line or lines; of the first entry the scene as it was opened
+  std::vector<std::string> actions;               // what the optimizer was asked, as JSON; not those that iterate
+  std::shared_ptr<const Scene> scene;             // with this line and all before it
+  std::shared_ptr<const Motion> motion;           // where it led; null until it is known
+  std::shared_ptr<const std::string> checkpoint;  // the motion document to come back to; null where there is none
+  bool iterated = false;                          // it is a `solve` or an `iterate`
+};
+
+enum class Severity { note, warning, error };
+
+// Something to be told, where the person looks: beside what it is about.
+struct Notice {
+  enum class Place { status, scene_text, equations, constants, timeline, optimisation, console, view };
+  Place place = Place::status;
+  Severity severity = Severity::note;
+  std::string text;
+  std::string about;  // the equation, constant or degree of freedom it is about; often empty
+  double until = 0;   // State::clock at which it goes; 0: stays until the next act
+};
+
+struct Daemon {
+  enum class Condition { starting, ready, lost } condition = Condition::starting;
+  std::string why;   // it is not ready
+  int restarts = 0;  // that were needed
+};
+
+// A constant, key or slider that is being dragged: the motion follows, and one line is left of it.
+struct Steering {
+  std::string line;    // that would be written now: set BasketX = 2.71
+  std::string action;  // the same as JSON
+};
+
+struct ConsoleLine {
+  std::string asked;
+  std::string answer;
+  bool wrong = false;
+  bool waiting = true;
+};
+
+// How it is looked at.
+struct Playback {
+  double time = 0;  // s, shown in the scene view
+  bool playing = false;
+  bool loop = true;
+  double speed = 1;  // times the clock
+  double rate = 30;  // frames a second that steps and exports go by
+};
+
+// What may be selected, by name; views colour it alike everywhere.
+struct Selection {
+  std::vector<std::string> dofs;
+  std::vector<std::string> expressions;  // plots shown beside the degrees of freedom
+  std::string constraint;
+  std::string constant;
+  std::string body;
+};
+
+// A pose that is being made, before `K` keys it: values of degrees of freedom at Playback::time that the figure shows
+// instead of the motion's.
+struct Pose {
+  std::map<std::string, double> values;
+};
+
+struct State {
+  // The session.
+  std::string file;                    // empty where it was never saved
+  std::string saved;                   // the text that the file holds
+  std::vector<Entry> log;              // the first is the scene as it was opened
+  int present = -1;                    // index of the entry that is shown; those behind it can be redone
+  std::vector<std::string> script;     // actions that the file brought and that were not performed yet, line by line
+  std::shared_ptr<const Scene> scene;  // of the present entry, or the opened text with its mistakes
+
+  // The motion.
+  std::shared_ptr<const Curves> curves;    // newest; null before there is a problem
+  std::shared_ptr<const Curves> ghost;     // the motion before the last edit, while it is shown
+  std::shared_ptr<const Motion> motion;    // the last whole motion: status, terms, violations, multipliers
+  std::shared_ptr<const Samples> samples;  // of all plots, evenly over the time, of `curves` or shortly before
+  std::vector<IterationRecord> record;     // of all iterations shown, for the convergence plot
+  long revision = 0;                       // counts every change of `curves`
+
+  // What goes on.
+  bool running = false;   // a solve or iterate
+  bool stopping = false;  // it was asked to end
+  int waiting = 0;        // acts that are not answered yet
+  std::optional<Steering> steering;
+  std::optional<Pose> pose;
+  std::optional<Pose> copied;
+  Daemon symbolic, optimizer;
+  std::vector<Notice> notices;
+  std::vector<ConsoleLine> console;
+  std::vector<std::string> recent;  // files, newest first
+  double clock = 0;                 // s since the start; moved by events alone
+
+  // How it is looked at.
+  Playback playback;
+  Selection selection;
+  bool dark = true;
+  std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation; "" is a new one
+};
+
+// The text is not what the file holds.
+bool unsaved(const State& state);
+bool can_undo(const State& state);
+bool can_redo(const State& state);
+// The scene text of the present entry, or the one with mistakes.
+std::string text_of(const State& state);
+
+}  // namespace spacetime::gui
