@@ -71,8 +71,8 @@ struct Daemon {
 
 // A constant, key or slider that is being dragged: the motion follows, and one line is left of it.
 struct Steering {
-  std::string line;    // that would be written now: set BasketX = 2.71
-  std::string action;  // the same as JSON
+  std::string line;                  // that would be written now: set BasketX = 2.71; set BasketY = 0.5
+  std::vector<std::string> actions;  // the same, each as JSON
 };
 
 struct ConsoleLine {
