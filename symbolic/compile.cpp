@@ -74,6 +74,7 @@ Compilation Compiler::compile(std::string_view text) {
   const Scene scene = parse_scene(text, out.diagnostics);
   const double parsing = milliseconds_since(start);
   if (scene.statements.empty()) return out;
+  out.outline = outline(scene);
   Model model(scene, programs_, out.diagnostics);
   elaborate_scene(model);
   put_in_order(out.diagnostics);

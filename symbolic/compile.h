@@ -8,6 +8,7 @@
 
 #include "common/diagnostic.h"
 #include "common/problem.h"
+#include "symbolic/outline.h"
 
 namespace spacetime::symbolic {
 
@@ -25,6 +26,7 @@ struct Statistics {
 struct Compilation {
   std::optional<Problem> problem;       // only without diagnostics
   std::vector<Diagnostic> diagnostics;  // in the order of the text
+  std::vector<Outlined> outline;        // of what could be read
   Statistics statistics;
 };
 

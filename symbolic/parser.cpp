@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 
 #include "symbolic/nearest.h"
@@ -150,6 +151,8 @@ Scene parse(std::string_view text, std::vector<Diagnostic>& diagnostics) {
   while (true) {
     while (p.in.accept(TokenKind::line_end) || p.in.accept(TokenKind::semicolon)) continue;
     if (p.in.at(TokenKind::end)) return scene;
+    const char* first = p.in.peek().text.data();
+    const std::size_t statements = scene.statements.size();
     if (at_stray_item(p)) {
       if (!straying)
         p.in.fail(p.in.peek().span,
@@ -172,6 +175,14 @@ Scene parse(std::string_view text, std::vector<Diagnostic>& diagnostics) {
         straying = false;
       }
     }
+    if (scene.statements.size() == statements) continue;
+    const std::string_view last = p.in.previous().text;
+    Statement& statement = scene.statements.back();
+    statement.begin = static_cast<std::size_t>(first - text.data());
+    statement.end = static_cast<std::size_t>(last.data() + last.size() - text.data());
+    // What was given up may have ended with line ends.
+    while (statement.end > statement.begin && std::isspace(static_cast<unsigned char>(text[statement.end - 1])))
+      --statement.end;
   }
 }
 

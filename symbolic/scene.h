@@ -2,6 +2,7 @@
 // what later stages do not accept yet.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -279,8 +280,9 @@ struct Damaged {
 };
 
 struct Statement {
-  Span span;         // its first word
-  std::string word;  // the same as text
+  Span span;                       // its first word
+  std::string word;                // the same as text
+  std::size_t begin = 0, end = 0;  // all of it, in bytes of the text
   std::variant<Damaged, TimeDeclaration, ConstantDeclaration, ParameterDeclaration, TrajectoryDeclaration,
                DofDeclaration, LetDeclaration, DefineDeclaration, EliminateDeclaration, CreatureDeclaration,
                ScriptDeclaration, ConstrainDeclaration, MinimizeDeclaration, KeyframeDeclaration, SolveAction,

@@ -37,6 +37,21 @@ void write_statistics(Writer& to, const Statistics& s) {
   });
 }
 
+void write_outline(Writer& to, const std::vector<Outlined>& outline) {
+  to.key("outline");
+  to.list_of(outline, [&](const Outlined& statement) {
+    to.object([&] {
+      to.member("word", statement.word);
+      if (!statement.name.empty()) to.member("name", statement.name);
+      to.member("line", statement.line);
+      to.member("column", statement.column);
+      to.member("begin", static_cast<double>(statement.begin));
+      to.member("end", static_cast<double>(statement.end));
+      to.member("action", statement.action);
+    });
+  });
+}
+
 class Peer {
  public:
   void compile(const Params& params, Writer& result) {
@@ -47,6 +62,7 @@ class Peer {
       write(result, *compiled.problem);
     }
     write_diagnostics(result, compiled.diagnostics);
+    write_outline(result, compiled.outline);
     write_statistics(result, compiled.statistics);
   }
 
