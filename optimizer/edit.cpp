@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "common/constants.h"
 #include "common/diagnostic.h"
-#include "optimizer/constants.h"
 
 namespace spacetime::optimizer {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "common/constants.h"
 #include "common/problem.h"
-#include "optimizer/constants.h"
 
 namespace spacetime::optimizer {
 

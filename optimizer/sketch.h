@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "common/constants.h"
 #include "common/motion.h"
 #include "common/problem.h"
-#include "optimizer/constants.h"
 
 namespace spacetime::optimizer {
 

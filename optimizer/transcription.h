@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "common/bspline.h"
+#include "common/constants.h"
 #include "common/evaluate.h"
 #include "common/problem.h"
-#include "optimizer/constants.h"
 #include "optimizer/freedom.h"
 
 namespace spacetime::optimizer {

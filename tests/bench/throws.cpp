@@ -42,7 +42,7 @@ Throw throw_named(const std::string& name) {
     }
     const Problem sketched = symbolic::compile(std::string(text).replace(at, end - at, keys)).problem.value();
     result.starts.push_back(
-        {"sketch " + sketch["k"].dump(), optimizer::sketch(sketched, optimizer::evaluate_constants(sketched))});
+        {"sketch " + sketch["k"].dump(), optimizer::sketch(sketched, evaluate_constants(sketched))});
   }
   return result;
 }

@@ -1,5 +1,5 @@
 // Constants, and the times of every kind of scope.
-#include "optimizer/constants.h"
+#include "common/constants.h"
 
 #include <gtest/gtest.h>
 

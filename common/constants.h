@@ -8,7 +8,7 @@
 
 #include "common/problem.h"
 
-namespace spacetime::optimizer {
+namespace spacetime {
 
 // By name.
 using Constants = std::map<std::string, double>;
@@ -26,4 +26,4 @@ double evaluate(const Problem& problem, const Constants& constants, const Quanti
 std::vector<double> scope_times(const Problem& problem, const Constants& constants, const Scope& scope,
                                 const std::vector<double>& breakpoints, const std::string& what);
 
-}  // namespace spacetime::optimizer
+}  // namespace spacetime

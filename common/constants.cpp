@@ -1,4 +1,4 @@
-#include "optimizer/constants.h"
+#include "common/constants.h"
 
 #include <cmath>
 #include <limits>
@@ -6,7 +6,7 @@
 #include "common/diagnostic.h"
 #include "common/evaluate.h"
 
-namespace spacetime::optimizer {
+namespace spacetime {
 namespace {
 
 // A last step that differs from a whole one by less than this fraction counts as whole (language, "Scopes").
@@ -102,4 +102,4 @@ std::vector<double> scope_times(const Problem& problem, const Constants& constan
   return times;
 }
 
-}  // namespace spacetime::optimizer
+}  // namespace spacetime
