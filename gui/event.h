@@ -94,8 +94,8 @@ struct Compiled {
 };
 struct Iterated {  // progress of a run
   int number = 0;
-  IterationRecord record;
-  std::vector<Trajectory> changed;  // curves that differ from those of the progress before
+  std::vector<IterationRecord> records;  // more than one where nobody looked meanwhile
+  std::vector<Trajectory> changed;       // curves that differ; without knots where those are as before
   std::vector<std::pair<std::string, double>> parameters;
 };
 struct Logged {        // one action of an answer's log
@@ -139,10 +139,28 @@ struct FileFailed {
 struct FileWritten {
   std::string file, text;
 };
+struct FileChanged {  // by somebody else
+  std::string file;
+};
+
+// What was kept on disk: settings at the start, sessions that ended without being saved, and one that is opened again.
+struct SettingsRead {
+  bool dark = true;
+  std::vector<std::string> recent;
+};
+struct SessionsFound {
+  std::vector<LeftBehind> left;
+};
+struct Restored {  // entries with their texts alone in `scene`
+  std::string file, saved;
+  std::vector<Entry> log;
+  int present = 0;
+  std::vector<std::string> script;
+};
 
 using Event = std::variant<Open, OpenText, Save, Act, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost, Ask,
                            Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss,
                            Tick, DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused,
-                           FileRead, FileFailed, FileWritten>;
+                           FileRead, FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored>;
 
 }  // namespace spacetime::gui

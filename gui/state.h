@@ -13,6 +13,8 @@
 #include "common/diagnostic.h"
 #include "common/motion.h"
 #include "common/problem.h"
+#include "gui/notice.h"
+#include "gui/work.h"
 
 namespace spacetime::gui {
 
@@ -22,6 +24,9 @@ struct Statement {
   std::string name;  // what it declares; of unnamed constraints and objectives "constraint 3", "objective 1"
   std::string text;  // as written
   int line = 0;      // of its first character, from 1
+  int column = 0;    // likewise
+  bool action = false;
+  std::size_t begin = 0, end = 0;  // bytes of the scene's text
   bool operator==(const Statement&) const = default;
 };
 
@@ -48,19 +53,8 @@ struct Entry {
   std::shared_ptr<const Scene> scene;             // with this line and all before it
   std::shared_ptr<const Motion> motion;           // where it led; null until it is known
   std::shared_ptr<const std::string> checkpoint;  // the motion document to come back to; null where there is none
-  bool iterated = false;                          // it is a `solve` or an `iterate`
-};
-
-enum class Severity { note, warning, error };
-
-// Something to be told, where the person looks: beside what it is about.
-struct Notice {
-  enum class Place { status, scene_text, equations, constants, timeline, optimisation, console, view };
-  Place place = Place::status;
-  Severity severity = Severity::note;
-  std::string text;
-  std::string about;  // the equation, constant or degree of freedom it is about; often empty
-  double until = 0;   // State::clock at which it goes; 0: stays until the next act
+  bool iterated = false;                          // a `solve` or an `iterate` is in it
+  int number = 0;                                 // its own in this session, whatever its place in the log
 };
 
 struct Daemon {
@@ -80,6 +74,14 @@ struct ConsoleLine {
   std::string answer;
   bool wrong = false;
   bool waiting = true;
+  int number = 0;  // of the request
+};
+
+// A session that ended without being saved: `Open{journal}` brings it back.
+struct LeftBehind {
+  std::string journal;  // the file it is kept in
+  std::string file;     // the scene it began with; empty where that had none
+  bool operator==(const LeftBehind&) const = default;
 };
 
 // How it is looked at.
@@ -134,6 +136,7 @@ struct State {
   std::vector<Notice> notices;
   std::vector<ConsoleLine> console;
   std::vector<std::string> recent;  // files, newest first
+  std::vector<LeftBehind> left;     // sessions that ended without being saved
   double clock = 0;                 // s since the start; moved by events alone
 
   // How it is looked at.
@@ -141,6 +144,9 @@ struct State {
   Selection selection;
   bool dark = true;
   std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation; "" is a new one
+
+  // What is under way (work.h); no business of views.
+  Work work;
 };
 
 // The text is not what the file holds.
@@ -149,5 +155,7 @@ bool can_undo(const State& state);
 bool can_redo(const State& state);
 // The scene text of the present entry, or the one with mistakes.
 std::string text_of(const State& state);
+// What a file would hold: the text, and behind it what the script still has to do.
+std::string text_to_save(const State& state);
 
 }  // namespace spacetime::gui

@@ -1,0 +1,61 @@
+// What an update asks for: values that the hub performs.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/problem.h"
+
+namespace spacetime::gui {
+
+// A request to a daemon; `answer` tells which event its answer becomes.  An error becomes Refused.
+struct Request {
+  enum class Answer {
+    scene,  // Compiled
+    done,   // Done
+    run,    // Done, and Iterated before it
+    reached,
+    checkpoint,  // Reached, with one
+    sampled,
+    answered,
+    acknowledged,
+  };
+  int number = 0;
+  bool symbolic = false;  // or the optimizer
+  std::string method;
+  std::string params;                      // JSON text of the members, without braces
+  std::shared_ptr<const Problem> problem;  // one more member, where there is one
+  Answer answer = Answer::acknowledged;
+  std::string text;  // of the scene that is compiled
+};
+struct Cancel {  // of the optimizer
+  int number = 0;
+};
+struct ReadFile {
+  std::string file;
+};
+struct WriteFile {
+  std::string file, text;
+};
+struct WatchFile {  // tells of changes by somebody else; empty: none
+  std::string file;
+};
+struct JournalBegin {};
+struct JournalLine {
+  std::string json;
+};
+struct JournalEnd {
+  bool keep = false;  // what was not saved can be brought back
+};
+struct KeepSettings {
+  bool dark = true;
+  std::vector<std::string> recent;
+};
+
+using Effect =
+    std::variant<Request, Cancel, ReadFile, WriteFile, WatchFile, JournalBegin, JournalLine, JournalEnd, KeepSettings>;
+using Effects = std::vector<Effect>;
+
+}  // namespace spacetime::gui

@@ -1,0 +1,32 @@
+#include "gui/state.h"
+
+namespace spacetime::gui {
+
+std::string text_of(const State& state) { return state.scene ? state.scene->text : std::string(); }
+
+std::string text_to_save(const State& state) {
+  std::string text = text_of(state);
+  for (const std::string& line : state.script) text += line;
+  return text;
+}
+
+bool unsaved(const State& state) { return state.scene && text_to_save(state) != state.saved; }
+
+// Where a run goes on, undoing is leaving it.
+bool can_undo(const State& state) {
+  if (state.present < 0) return false;
+  if (state.running && state.log[state.present].checkpoint) return true;
+  for (int i = state.present - 1; i >= 0; --i) {
+    if (state.log[i].checkpoint) return true;
+  }
+  return false;
+}
+
+bool can_redo(const State& state) {
+  for (int i = state.present + 1; i < static_cast<int>(state.log.size()); ++i) {
+    if (state.log[i].checkpoint) return true;
+  }
+  return false;
+}
+
+}  // namespace spacetime::gui
