@@ -89,8 +89,10 @@ struct Motion {
   std::vector<std::pair<std::string, double>> constants;
   std::vector<std::pair<std::string, double>> parameters;
   std::optional<Samples> samples;
-  std::vector<IterationRecord> record;  // on request: all iterations
-  std::vector<Minimum> minima;          // distinct ones, best first, where the last `solve` had many starts
+  std::vector<IterationRecord> record;      // on request: all iterations
+  std::vector<Minimum> minima;              // distinct ones, best first, where the last `solve` had many starts
+  std::vector<Body> bodies;                 // the problem's, so that a motion can be drawn by itself ...
+  std::map<std::string, Program> programs;  // ... and what gives their poses and sizes, by hash
   bool operator==(const Motion&) const = default;
 };
 

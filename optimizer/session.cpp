@@ -34,6 +34,20 @@ std::vector<double> start_of(const Problem& problem, const Transcription& t, con
   return x;
 }
 
+// The problem's bodies with what gives their poses and sizes.  A pose made of functionals is left out: its motion's
+// document has none.
+void add_bodies(const Problem& problem, Motion& motion) {
+  const auto add_program = [&](const std::string& key) { motion.programs.emplace(key, problem.programs.at(key)); };
+  for (const Body& body : problem.bodies) {
+    const auto& inputs = problem.programs.at(body.program).inputs;
+    if (std::ranges::find(inputs, InputKind::functional, &Input::kind) != inputs.end()) continue;
+    motion.bodies.push_back(body);
+    add_program(body.program);
+    for (const Quantity& size : body.size)
+      if (!size.program.empty()) add_program(size.program);
+  }
+}
+
 }  // namespace
 
 bool is_edit(const Action& action) {
@@ -334,6 +348,7 @@ Motion Session::motion(double tolerance) {
     motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
   }
   motion.minima = minima_;
+  add_bodies(problem, motion);
   motion.seconds = state_.seconds;
   motion.seconds.total = elapsed();
   return motion;

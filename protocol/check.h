@@ -30,8 +30,8 @@ std::optional<Fault> validate(const Problem& problem);
 std::optional<Fault> validate(const Action& action, const Problem& problem);
 
 // Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,
-// every number is finite (but for measures of a failed motion), names are unique, and samples are as long as their
-// times.
+// every number is finite (but for measures of a failed motion), names are unique, samples are as long as their times,
+// and bodies and their programs could stand in a problem.
 std::optional<Fault> validate(const Motion& motion);
 
 // A clamped cubic basis over [start, end]; `path` is the basis's own.

@@ -138,6 +138,20 @@ std::optional<Fault> validate_record(const Motion& motion, bool failed) {
   return std::nullopt;
 }
 
+// Bodies mean what they would mean in a problem of the same trajectories and numbers.
+std::optional<Fault> validate_bodies(const Motion& motion) {
+  if (motion.bodies.empty() && motion.programs.empty()) return std::nullopt;
+  Problem problem;
+  problem.start = motion.start;
+  problem.end = motion.end;
+  for (const auto& [name, value] : motion.constants) problem.constants.push_back({name, {value, {}, 0}, {}});
+  for (const auto& [name, value] : motion.parameters) problem.parameters.push_back({name, {value, {}, 0}, {}});
+  for (const auto& dof : motion.dofs) problem.dofs.push_back({dof.name, dof.basis, {}, {}});
+  problem.programs = motion.programs;
+  problem.bodies = motion.bodies;
+  return validate(problem);
+}
+
 }  // namespace
 
 std::optional<Fault> validate(const Motion& motion) {
@@ -161,6 +175,7 @@ std::optional<Fault> validate(const Motion& motion) {
     if (auto fault = validate(*motion.samples, failed)) return fault;
   }
   if (auto fault = validate_minima(motion)) return fault;
+  if (auto fault = validate_bodies(motion)) return fault;
   return validate_record(motion, failed);
 }
 

@@ -248,6 +248,12 @@ void write(Writer& to, const Motion& motion) {
           to.list_of(
               motion.minima, [&](const Minimum& minimum) { write(to, minimum); }, Set::in_lines);
         }
+        if (!motion.bodies.empty()) {
+          to.key("bodies");
+          to.list_of(
+              motion.bodies, [&](const Body& body) { write(to, body); }, Set::in_lines);
+          write_programs(to, motion.programs);
+        }
       },
       Set::in_lines);
 }
@@ -263,7 +269,7 @@ Motion motion_from(const Node& node) {
   node["format"].choice(formats);
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
-              {"samples", "record", "minima"});
+              {"samples", "record", "minima", "bodies", "programs"});
   Motion motion;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
@@ -289,6 +295,12 @@ Motion motion_from(const Node& node) {
   if (const auto samples = node.find("samples")) motion.samples = samples_from(*samples);
   if (const auto record = node.find("record")) motion.record = record->each(record_from);
   if (const auto minima = node.find("minima")) motion.minima = minima->each(minimum_from);
+  if (const auto bodies = node.find("bodies")) {
+    motion.bodies = bodies->each(body_from);
+    motion.programs = programs_from(node["programs"]);
+  } else if (const auto programs = node.find("programs")) {
+    node["bodies"];  // is missing
+  }
   return motion;
 }
 

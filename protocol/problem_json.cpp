@@ -13,7 +13,6 @@ namespace {
 // Names of enumerations, in their order.
 constexpr std::array<std::string_view, 2> functional_kinds{"integral", "at"};
 constexpr std::array<std::string_view, 3> piece_kinds{"integral", "at", "once"};
-constexpr std::array<std::string_view, 4> shapes{"capsule", "sphere", "box", "none"};
 constexpr std::array<std::string_view, 2> relations{"=", "<="};
 
 void write(Writer& to, const Constant& constant) {
@@ -210,23 +209,6 @@ Plot plot_from(const Node& node) {
   return {node["name"].string(), node["program"].string(), node["outputs"].integers()};
 }
 
-void write(Writer& to, const Body& body) {
-  to.object([&] {
-    to.member("name", body.name);
-    to.choice("shape", shapes, body.shape);
-    member(to, "size", body.size);
-    to.member("program", body.program);
-    to.key("outputs");
-    to.integers(body.outputs);
-  });
-}
-
-Body body_from(const Node& node) {
-  node.object({"name", "shape", "size", "program", "outputs"});
-  return {static_cast<Body::Shape>(node["shape"].choice(shapes)), node["name"].string(),
-          node["size"].each(quantity_from), node["program"].string(), node["outputs"].integers()};
-}
-
 }  // namespace
 
 void write(Writer& to, const Problem& problem) {
@@ -243,15 +225,7 @@ void write(Writer& to, const Problem& problem) {
         statements("constants", problem.constants);
         statements("parameters", problem.parameters);
         statements("dofs", problem.dofs);
-        to.key("programs");
-        to.object(
-            [&] {
-              for (const auto& [name, program] : problem.programs) {
-                to.key(name);
-                write(to, program);
-              }
-            },
-            Set::in_lines);
+        write_programs(to, problem.programs);
         to.key("functionals");
         to.list_of(
             problem.functionals, [&](const Functional& functional) { write_summed(to, functional, functional_kinds); },
@@ -285,8 +259,7 @@ Problem problem_from(const Node& node) {
   problem.constants = node["constants"].each(constant_from);
   problem.parameters = node["parameters"].each(parameter_from);
   problem.dofs = node["dofs"].each(dof_from);
-  node["programs"].members(
-      [&](const std::string& name, const Node& program) { problem.programs.emplace(name, program_from(program)); });
+  problem.programs = programs_from(node["programs"]);
   problem.functionals = node["functionals"].each(
       [](const Node& functional) { return summed_from<Functional>(functional, functional_kinds); });
   problem.constraints = node["constraints"].each(constraint_from);

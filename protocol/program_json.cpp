@@ -4,9 +4,12 @@
 #include <string_view>
 
 #include "protocol/limits.h"
+#include "protocol/quantity_json.h"
 
 namespace spacetime {
 namespace {
+
+constexpr std::array<std::string_view, 4> shapes{"capsule", "sphere", "box", "none"};  // in the order of Body::Shape
 
 bool is_named(InputKind kind) {
   return kind == InputKind::dof || kind == InputKind::signal || kind == InputKind::constant ||
@@ -116,6 +119,41 @@ Basis basis_from(const Node& node) {
   const auto knots = node["knots"];
   knots.list(limits::spans + 7);
   return {.knots = knots.numbers()};
+}
+
+void write_programs(Writer& to, const std::map<std::string, Program>& programs) {
+  to.key("programs");
+  to.object(
+      [&] {
+        for (const auto& [name, program] : programs) {
+          to.key(name);
+          write(to, program);
+        }
+      },
+      Set::in_lines);
+}
+
+std::map<std::string, Program> programs_from(const Node& node) {
+  std::map<std::string, Program> programs;
+  node.members([&](const std::string& name, const Node& program) { programs.emplace(name, program_from(program)); });
+  return programs;
+}
+
+void write(Writer& to, const Body& body) {
+  to.object([&] {
+    to.member("name", body.name);
+    to.choice("shape", shapes, body.shape);
+    member(to, "size", body.size);
+    to.member("program", body.program);
+    to.key("outputs");
+    to.integers(body.outputs);
+  });
+}
+
+Body body_from(const Node& node) {
+  node.object({"name", "shape", "size", "program", "outputs"});
+  return {static_cast<Body::Shape>(node["shape"].choice(shapes)), node["name"].string(),
+          node["size"].each(quantity_from), node["program"].string(), node["outputs"].integers()};
 }
 
 }  // namespace spacetime

@@ -269,6 +269,13 @@ Motion rich_motion() {
   motion.samples = Samples{{0, 1, 2},
                            {{"hand", {{1, 2}, {3, 4}, {5, 6}}}, {"swing", {{0}, {0.5}, {1}}}},
                            {{"upper", std::vector<std::vector<double>>(3, std::vector<double>(12, 0.5))}}};
+  Problem problem;
+  std::vector<int> outputs(12);
+  std::iota(outputs.begin(), outputs.end(), 0);
+  const auto program = add(problem, pose("arm.shoulder")), size = add(problem, twice("g"));
+  motion.bodies = {{Body::Shape::sphere, "ball", {{0, size, 0}}, program, outputs},
+                   {Body::Shape::none, "frame", {}, program, outputs}};
+  motion.programs = problem.programs;
   return motion;
 }
 

@@ -439,6 +439,18 @@ Motion random_motion(std::uint32_t seed) {
     motion.record.push_back({below(random, 1000), value(), value(), value(), value(), value(), value()});
   }
   for (int i = below(random, 3); i > 0; --i) motion.minima.push_back({value(), {below(random, 9), 7}, motion.dofs});
+  if (!motion.dofs.empty() && coin(random)) {
+    Problem problem;
+    Program pose;
+    pose.inputs = {dof(motion.dofs.front().name, below(random, 3)), time()};
+    for (int k = 0; k < 12; ++k) pose.values.push_back(below(random, 2));
+    motion.bodies.push_back({Body::Shape::sphere,
+                             random_name(random, "body", 0),
+                             {number(value())},
+                             add(problem, std::move(pose)),
+                             std::vector<int>(12, 3)});
+    motion.programs = std::move(problem.programs);
+  }
   if (!coin(random)) return motion;
   Samples samples;
   for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());

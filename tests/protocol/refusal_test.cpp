@@ -251,6 +251,11 @@ TEST(MotionRefuses, WrongFormsAndWhatMeansNothing) {
           {"/samples/values/hand/1", "[1]", nullptr, "1 columns, expected 2"},
           {"/samples/poses/upper/1", "[1]", nullptr, "1 columns, expected 12"},
           {"/samples/frames", "1", nullptr, "unknown member"},
+          {"/bodies", none, "", R"(the member "bodies" is missing)"},
+          {"/programs", none, "", R"(the member "programs" is missing)"},
+          {"/bodies/0/size", "[]", nullptr, "this shape has 1 numbers, not 0"},
+          {"/bodies/0/outputs/3", "99", nullptr, "99"},
+          {"/bodies/1/program", R"("gone")", nullptr, "gone"},
       },
       read);
 }
