@@ -10,20 +10,23 @@
 namespace spacetime {
 namespace {
 
-// A program's values along a motion.
-struct Rows {
-  std::vector<double> data;
-  std::size_t samples = 0;
-  double operator()(int output, std::size_t sample) const { return data[output * samples + sample]; }
-};
-
 double named(const std::vector<std::pair<std::string, double>>& list, const std::string& name) {
   const auto found = std::ranges::find_if(list, [&](const auto& entry) { return entry.first == name; });
   return found == list.end() ? 0 : found->second;
 }
 
-Rows run(const Program& program, const Motion& motion, std::span<const double> functionals,
-         std::span<const double> times) {
+std::vector<std::vector<double>> table(const Rows& rows, std::span<const int> outputs) {
+  std::vector<std::vector<double>> result(rows.samples);
+  for (std::size_t s = 0; s < rows.samples; ++s) {
+    for (const int output : outputs) result[s].push_back(rows(output, s));
+  }
+  return result;
+}
+
+}  // namespace
+
+Rows along(const Program& program, const Evaluator& evaluator, const Motion& motion, std::span<const double> functionals,
+           std::span<const double> times) {
   std::vector<std::vector<double>> inputs;
   std::vector<const double*> pointers;
   std::vector<std::uint8_t> uniform;
@@ -56,21 +59,10 @@ Rows run(const Program& program, const Motion& motion, std::span<const double> f
     inputs.push_back(std::move(values));
   }
   for (const auto& values : inputs) pointers.push_back(values.data());
-  const Evaluator evaluator(program);
   Rows rows{std::vector<double>(evaluator.outputs(Depth::values) * times.size()), times.size()};
   evaluator.run(Depth::values, times.size(), pointers, uniform, rows.data.data(), times.size());
   return rows;
 }
-
-std::vector<std::vector<double>> table(const Rows& rows, std::span<const int> outputs) {
-  std::vector<std::vector<double>> result(rows.samples);
-  for (std::size_t s = 0; s < rows.samples; ++s) {
-    for (const int output : outputs) result[s].push_back(rows(output, s));
-  }
-  return result;
-}
-
-}  // namespace
 
 Samples sample(const Problem& problem, const Motion& motion, std::span<const double> functionals,
                std::span<const double> times) {
@@ -80,7 +72,8 @@ Samples sample(const Problem& problem, const Motion& motion, std::span<const dou
   const auto rows_of = [&](const std::string& hash) -> const Rows& {
     const auto found = rows.find(hash);
     if (found != rows.end()) return found->second;
-    return rows.emplace(hash, run(problem.programs.at(hash), motion, functionals, times)).first->second;
+    const Program& program = problem.programs.at(hash);
+    return rows.emplace(hash, along(program, Evaluator(program), motion, functionals, times)).first->second;
   };
   for (const Plot& plot : problem.plots) samples.values[plot.name] = table(rows_of(plot.program), plot.outputs);
   for (const Body& body : problem.bodies) samples.poses[body.name] = table(rows_of(body.program), body.outputs);

@@ -4,10 +4,23 @@
 #include <span>
 #include <vector>
 
+#include "common/evaluate.h"
 #include "common/motion.h"
 #include "common/problem.h"
 
 namespace spacetime {
+
+// A program's values along a motion: one row an output, one column a time.
+struct Rows {
+  std::vector<double> data;
+  std::size_t samples = 0;
+  double operator()(int output, std::size_t sample) const { return data[output * samples + sample]; }
+};
+
+// The program's values at `times` (s, within the motion's span), the evaluator being the program's.  The motion has the
+// trajectories that the program takes; `functionals` the values of the problem's functionals, if it takes any.
+Rows along(const Program& program, const Evaluator& evaluator, const Motion& motion, std::span<const double> functionals,
+           std::span<const double> times);
 
 // Every plot and body pose of the problem along the motion, at `times` (s, within the motion's span).  `functionals`
 // has the value of each of the problem's functionals.

@@ -1,34 +1,215 @@
 #include "gui/command_render.h"
 
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/diagnostic.h"
 #include "common/files.h"
+#include "common/sample.h"
+#include "gui/render/compose.h"
+#include "gui/render/film.h"
+#include "gui/render/offscreen.h"
+#include "gui/render/pattern.h"
+#include "gui/render/renderer.h"
+#include "gui/render/target.h"
 #include "protocol/motion_json.h"
+#include "protocol/problem_json.h"
 
 namespace spacetime::gui {
 namespace {
 
+constexpr int samples_a_pixel = 4;
+constexpr int most_frames = 100000;  // an hour at 28 a second; more is a slip of the pen
+
 struct Options {
-  std::string motion, output;
+  std::string motion, output, problem, size = "1280x720", view, theme = "light";
+  double rate = 30;
+  int strip = 0;
+  std::optional<double> at;
+  std::vector<std::string> trails;
 };
 
-int run(const Options& options) {
-  const Motion motion = read_motion(read_text(options.motion));
-  if (!motion.samples) {
-    throw InputError("'" + options.motion + "' has no poses to draw: solve with '--samples 30'");
+volatile std::sig_atomic_t interrupts = 0;
+void on_interrupt(int) { interrupts = interrupts + 1; }
+
+struct Size {
+  int width = 0, height = 0;
+};
+
+Size size_of(const std::string& text) {
+  Size size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 16 ||
+      size.height < 16) {
+    throw InputError("'" + text + "' is no size of pictures: write it like 1280x720, each edge at least 16 pixels");
   }
-  return 0;
+  return size;
+}
+
+std::optional<View> view_of(const std::string& name) {
+  if (name == "front") return View::front;
+  if (name == "side") return View::side;
+  if (name == "top") return View::top;
+  if (name == "free") return View::free;
+  return std::nullopt;
+}
+
+void make_folder_of(const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  if (folder.empty()) return;
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw InputError("the folder '" + folder.string() + "' cannot be made: " + failed.message());
+}
+
+// Everything that pictures of one motion share.
+class Studio {
+ public:
+  Studio(const Figures& figures, const Motion& motion, const Options& options)
+      : size_(size_of(options.size)), target_(size_.width, size_.height, samples_a_pixel) {
+    const Box bounds = figures.bounds(motion);
+    const auto view = view_of(options.view).value_or(planar(bounds) ? View::front : View::free);
+    camera_ = overview(bounds, view, {size_.width, size_.height});
+  }
+
+  Size size() const { return size_; }
+  Image shoot(const Picture& picture) {
+    target_.bind();
+    renderer_.draw(picture, camera_, size_.width, size_.height);
+    return target_.read();
+  }
+
+ private:
+  Size size_;
+  Offscreen context_;
+  Renderer renderer_;
+  Target target_;
+  Camera camera_;
+};
+
+// The pictures of a whole motion, to `take` one by one; false where Ctrl-C ended it early.
+template <class Take>
+bool play(const Figures& figures, const Motion& motion, const Options& options, const Look& look, Studio& studio,
+          Take take) {
+  if ((motion.end - motion.start) * options.rate > most_frames) {
+    throw InputError("more than " + std::to_string(most_frames) + " pictures: choose a lower --rate");
+  }
+  const auto times = frame_times(motion.start, motion.end, options.rate);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (interrupts > 0) {
+      std::cerr << "\nstopped after " << k << " of " << times.size() << " pictures\n";
+      return false;
+    }
+    take(static_cast<int>(k), studio.shoot(moment(figures, motion, times[k], look)));
+    std::cerr << "\rpicture " << k + 1 << " of " << times.size() << std::flush;
+  }
+  std::cerr << '\n';
+  return true;
+}
+
+enum Exit { done = 0, interrupted = 2 };
+
+int draw(const Options& options, const Figures& figures, const Motion& motion) {
+  const Look look{options.theme == "dark" ? Theme::dark : Theme::light, options.trails};
+  for (const std::string& trail : look.trails) figures.way(motion, trail, std::vector{motion.start});  // is there one?
+  const auto pattern = pattern_of(options.output);
+  const auto extension = std::filesystem::path(options.output).extension();
+  const bool film = extension == ".mp4";
+  if (!film && extension != ".png") {
+    throw InputError("pictures are written as .png, a film as .mp4: '" + options.output +
+                     "' is none of them");
+  }
+  if (pattern && (film || options.strip > 0 || options.at)) {
+    throw InputError("'" + options.output + "' numbers many files, but one is asked for");
+  }
+  if (!pattern && !film && options.strip == 0 && !options.at) {
+    throw InputError("'" + options.output + "' is one picture: say of which time (--at 0.5) or of how many poses " +
+                     "(--strip 12), or number the pictures (-o 'frames/%04d.png')");
+  }
+  if (film && (options.strip > 0 || options.at)) throw InputError("one picture is no film: write it as .png");
+  if (options.at && (*options.at < motion.start || *options.at > motion.end)) {
+    throw InputError("the motion has no time " + std::to_string(*options.at) + ": it lasts from " +
+                     std::to_string(motion.start) + " to " + std::to_string(motion.end) + " s");
+  }
+
+  Studio studio(figures, motion, options);
+  make_folder_of(options.output);
+  if (options.strip > 0) {
+    write_png(options.output, studio.shoot(strip(figures, motion, options.strip, look)));
+    return done;
+  }
+  if (options.at) {
+    write_png(options.output, studio.shoot(moment(figures, motion, *options.at, look)));
+    return done;
+  }
+  if (pattern) {
+    const auto write = [&](int k, const Image& image) { write_png(pattern->file(k), image); };
+    return play(figures, motion, options, look, studio, write) ? done : interrupted;
+  }
+  Film out(options.output, studio.size().width, studio.size().height, options.rate);
+  const bool whole =
+      play(figures, motion, options, look, studio, [&](int, const Image& image) { out.add(image); });
+  out.finish();
+  return whole ? done : interrupted;
+}
+
+int run(const Options& options) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  const Motion motion = read_motion(read_text(options.motion));
+  const auto problem =
+      options.problem.empty() ? std::nullopt : std::optional(read_problem(read_text(options.problem)));
+  const Figures figures = problem ? Figures(*problem) : Figures(motion);
+  if (figures.empty()) {
+    throw InputError("there is nothing to draw: the motion has no bodies and no degrees of freedom of its own");
+  }
+  return draw(options, figures, motion);
 }
 
 }  // namespace
 
 Command add_render(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("render", "Draws a motion into picture files, without a window");
+  CLI::App* command = app.add_subcommand("render",
+                                         "Draws a motion into files, without a window: numbered pictures, a film or "
+                                         "one picture.\nCtrl-C stops it; what is finished stays.");
   command->add_option("MOTION", options->motion, "The motion, a file or - for standard input")->required();
-  command->add_option("-o,--output", options->output, "Where the pictures go")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "frames/%04d.png: numbered pictures; film.mp4: a film (by ffmpeg); one .png with --at or --strip")
+      ->required();
+  command->add_option("--rate", options->rate, "Pictures a second")
+      ->check([](const std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return *end == '\0' && value > 0 && value <= 1000 ? "" : "expected a number from 0 to 1000, found '" + text + "'";
+      })
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Of a picture, in pixels")->capture_default_str();
+  command
+      ->add_option("--view", options->view, "From where; by default front where all moves in a plane, else free")
+      ->check(CLI::IsMember({"front", "side", "top", "free"}));
+  command->add_option("--theme", options->theme, "Light or dark")
+      ->check(CLI::IsMember({"light", "dark"}))
+      ->capture_default_str();
+  command->add_option("--at", options->at, "One picture, at this time (s)");
+  command->add_option("--strip", options->strip, "One picture of so many poses, paler the earlier they are")
+      ->check(CLI::Range(2, 200));
+  command
+      ->add_option("--trail", options->trails,
+                   "Also draw the way of a body, a creature's last body, or a named point; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--problem", options->problem,
+                      "The motion's problem, a file or -: then every named expression can be drawn");
   return {command, [options] { return run(*options); }};
 }
 
