@@ -1,0 +1,29 @@
+// Posing a figure by pulling at it: damped least squares (Buss, "Introduction to inverse kinematics", 2004, section 5;
+// Wampler 1986).
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/problem.h"
+
+namespace spacetime::gui {
+
+// Values of degrees of freedom, constants and parameters at one moment, by name.
+struct Moment {
+  std::map<std::string, double> dofs, constants, parameters;
+  double time = 0;
+};
+
+// Where a point of a body (in the body's own axes, metres) is in the world.
+glm::dvec3 place_of(const Problem& problem, const Body& body, const Moment& moment, const glm::dvec3& point);
+
+// The degrees of freedom of `moment` changed so that the point comes as near to `target` as those in `free` allow;
+// bounds of the degrees of freedom are kept.
+std::map<std::string, double> reach(const Problem& problem, const Body& body, Moment moment, const glm::dvec3& point,
+                                    const glm::dvec3& target, const std::vector<std::string>& free,
+                                    const std::map<std::string, std::pair<double, double>>& bounds = {});
+
+}  // namespace spacetime::gui

@@ -1,0 +1,44 @@
+// A window that is not there: the views drawn into an image, with input from a program.  It is how tests drive the
+// window, frame by frame, on machines without a display.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gui/render/image.h"
+#include "gui/render/offscreen.h"
+#include "gui/render/target.h"
+#include "gui/views/layout.h"
+
+namespace spacetime::gui {
+
+class Screen {
+ public:
+  // Pixels; `scale` as of a screen with so many times the usual dots.
+  Screen(int width, int height, float scale = 1);
+  ~Screen();
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  // Input for the next frames.
+  void move(float x, float y);
+  void button(int which, bool down);
+  void wheel(float by);
+  void key(int glfw_key, bool down);
+  void type(const std::string& text);
+
+  // Draws one frame that lasts `seconds`; what the person did in it.
+  std::vector<Event> frame(const State& state, double seconds = 1.0 / 60);
+
+  Memory& memory() { return memory_; }
+  Image image() { return target_.read(); }
+
+ private:
+  Offscreen offscreen_;
+  Target target_;
+  Memory memory_;
+  std::unique_ptr<SceneView> scene_;
+  bool dark_ = false, styled_ = false;
+};
+
+}  // namespace spacetime::gui

@@ -1,0 +1,75 @@
+#include "gui/views/constants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spacetime::gui {
+
+Steering setting(const std::vector<std::pair<std::string, double>>& constants) {
+  Steering out;
+  for (const auto& [name, value] : constants) {
+    if (!out.line.empty()) out.line += "; ";
+    out.line += fmt::format("set {} = {}", name, written(value));
+    out.actions.push_back(fmt::format(R"({{"action":"set","constant":"{}","value":{}}})", name, written(value)));
+  }
+  return out;
+}
+
+void draw_constants(Ui& ui) {
+  const State& s = ui.state;
+  if (!s.scene || !s.scene->problem) {
+    ImGui::TextWrapped("The scene has mistakes: see its text.");
+    return;
+  }
+  if (s.scene->problem->constants.empty())
+    ImGui::TextWrapped(
+        "The scene has no constants. Write 'constant basket = 2.5' in it, and use the name in constraints: "
+        "its value can then be dragged here while the motion follows.");
+  ImGui::TextDisabled("Drag a value: the motion follows. Ctrl+click to type.");
+  if (ImGui::BeginTable("constants", 2, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, ui.scaled(130));
+    for (const Constant& constant : s.scene->problem->constants) {
+      const auto& values = ui.question().constants;
+      const auto found = values.find(constant.name);
+      double value = found == values.end() ? 0 : found->second;
+      const double before = value;
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::AlignTextToFramePadding();
+      ImGui::TextUnformatted(constant.name.c_str());
+      if (!constant.value.program.empty()) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("follows");
+        ui.help("It follows from other constants until it is set itself.");
+      }
+      ImGui::TableNextColumn();
+      ImGui::SetNextItemWidth(-1);
+      if (constant.frozen) {
+        ImGui::TextDisabled("%s  (fixed)", shown(value).c_str());
+        ui.help(fmt::format("It shapes the motion's time, curves or joints in line {} and cannot be changed without "
+                            "compiling the scene anew.",
+                            constant.frozen->line)
+                    .c_str());
+      } else {
+        const float speed = static_cast<float>(std::max(std::abs(before), 0.1) * 0.005);
+        ImGui::DragScalar(("##" + constant.name).c_str(), ImGuiDataType_Double, &value, speed, nullptr, nullptr,
+                          "%.5g");
+        ui.here("constant " + constant.name);
+        const bool typing = ImGui::IsItemActive() && ImGui::GetIO().WantTextInput;
+        if (ImGui::IsItemEdited() && !typing) ui.emit(Steer{setting({{constant.name, value}})});
+        if (ImGui::IsItemDeactivatedAfterEdit()) {
+          if (!s.steering) ui.emit(Steer{setting({{constant.name, value}})});
+          ui.emit(Steered{true});
+        }
+      }
+      ui.notices(Notice::Place::constants, constant.name);
+    }
+    ImGui::EndTable();
+  }
+  ui.notices(Notice::Place::constants);
+}
+
+}  // namespace spacetime::gui

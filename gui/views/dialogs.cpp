@@ -1,0 +1,281 @@
+#include "gui/views/dialogs.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+namespace spacetime::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Example {
+  std::string file, name, about;
+};
+
+// The first comment of a scene says what it is.
+std::string first_comment(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line, about;
+  while (std::getline(in, line) && !line.empty() && line[0] == '#') {
+    about += (about.empty() ? "" : " ") + line.substr(std::min(line.size(), line.find_first_not_of("# ")));
+    if (about.size() > 160) break;
+  }
+  return about.substr(0, about.find(". ") == std::string::npos ? about.size() : about.find(". ") + 1);
+}
+
+const std::vector<Example>& examples() {
+  static const std::vector<Example> all = [] {
+    std::vector<Example> out;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(examples_folder(), none)) {
+      if (entry.path().extension() != ".scene") continue;
+      std::string name = entry.path().stem();
+      std::ranges::replace(name, '_', ' ');
+      out.push_back({entry.path(), name, first_comment(entry.path())});
+    }
+    // The throw first: it is what the program is about.
+    std::ranges::sort(out, {}, [](const Example& e) { return std::pair(e.name != "throw", e.name); });
+    return out;
+  }();
+  return all;
+}
+
+void draw_welcome(Ui& ui) {
+  if (ui.memory.welcome) ImGui::OpenPopup("Welcome");
+  const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(centre, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({ui.scaled(640), std::min(ui.scaled(560), ImGui::GetIO().DisplaySize.y * 0.9F)});
+  if (!ImGui::BeginPopupModal("Welcome", &ui.memory.welcome, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+    return;
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(
+      "Spacetime finds motion. A scene says what moves, what must hold and what is best; press Run and watch the "
+      "optimiser "
+      "find it. Then change a weight, drag the basket, key a pose, and run again.");
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  ImGui::PushFont(ui.memory.fonts.strong);
+  ImGui::TextUnformatted("Begin with an example");
+  ImGui::PopFont();
+  ImGui::BeginChild("examples", {0, -ImGui::GetFrameHeightWithSpacing() - 4});
+  for (const Example& example : examples()) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float height = ImGui::GetTextLineHeight() +
+                         ImGui::CalcTextSize(example.about.c_str(), nullptr, false, width - ui.scaled(16)).y +
+                         ui.scaled(10);
+    if (ImGui::Selectable(("##" + example.file).c_str(), false, 0, {width, height})) {
+      leave_for(ui, example.file);
+      ui.memory.welcome = false;
+      ImGui::CloseCurrentPopup();
+    }
+    ui.here("example " + example.name);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText(ui.memory.fonts.strong, ImGui::GetFontSize(), {at.x + 8, at.y + 3}, packed(ui.look().text),
+                 example.name.c_str());
+    list.AddText(nullptr, 0, {at.x + 8, at.y + 5 + ImGui::GetTextLineHeight()}, packed(ui.look().faint),
+                 example.about.c_str(), nullptr, width - ui.scaled(16));
+  }
+  if (examples().empty()) ImGui::TextDisabled("The examples were not found beside the program.");
+  ImGui::EndChild();
+  if (ImGui::Button("Open a file...")) {
+    ui.memory.files.dialog = FilesMemory::Dialog::open;
+    ui.memory.welcome = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Close")) {
+    ui.memory.welcome = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ui.here("close welcome");
+  ImGui::EndPopup();
+}
+
+void draw_shortcuts(Ui& ui) {
+  static constexpr std::array<std::array<const char*, 2>, 19> all{{
+      {"F5", "Run, or stop what runs"},
+      {"F10", "One iteration"},
+      {"Esc", "Stop; close what is open"},
+      {"Space", "Play or pause"},
+      {"Left, Right", "One frame back or forward"},
+      {"Home, End", "To the start or the end"},
+      {"K", "Key the pose at the time shown"},
+      {"Ctrl+Z", "Undo"},
+      {"Ctrl+Shift+Z, Ctrl+Y", "Redo"},
+      {"Ctrl+C, Ctrl+V", "Copy, paste a pose"},
+      {"Ctrl+Shift+V", "Paste a pose mirrored"},
+      {"Ctrl+O, Ctrl+S", "Open, save"},
+      {"Ctrl+E", "Examples"},
+      {"1, 2, 3, 4", "View from the front, the side, above, freely"},
+      {"F", "Frame the figure"},
+      {"G, T", "Ghosts, trails"},
+      {"Ctrl+Q", "Quit"},
+      {"F1", "This list"},
+      {"Mouse in the scene", "Left on a figure poses it, on ground turns; middle moves; wheel zooms"},
+  }};
+  if (ui.memory.shortcuts) ImGui::OpenPopup("Shortcuts");
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal("Shortcuts", &ui.memory.shortcuts, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, ui.scaled(180));
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ui.scaled(400));
+    for (const auto& [key, what] : all) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored(ui.look().accent, "%s", key);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what);
+    }
+    ImGui::EndTable();
+  }
+  if (ImGui::Button("Close")) ui.memory.shortcuts = false;
+  if (!ui.memory.shortcuts) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void list_folder(Ui& ui) {
+  FilesMemory& m = ui.memory.files;
+  std::vector<std::pair<bool, std::string>> names;  // not a folder, name: folders come first
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(m.folder, failed)) {
+    const std::string name = entry.path().filename();
+    const bool folder = entry.is_directory(failed);
+    if (name.starts_with('.') || (!folder && entry.path().extension() != ".scene")) continue;
+    names.emplace_back(!folder, name);
+  }
+  std::ranges::sort(names);
+  ImGui::BeginChild("files", {0, ui.scaled(260)}, true);
+  if (ImGui::Selectable("../")) m.folder = fs::path(m.folder).parent_path();
+  for (const auto& [plain, name] : names) {
+    if (ImGui::Selectable((plain ? name : name + "/").c_str(), m.name == name)) {
+      if (plain)
+        m.name = name;
+      else
+        m.folder = fs::path(m.folder) / name;
+    }
+  }
+  if (failed) ImGui::TextColored(ui.look().bad, "This folder cannot be read.");
+  ImGui::EndChild();
+}
+
+void draw_files(Ui& ui) {
+  FilesMemory& m = ui.memory.files;
+  const bool open = m.dialog == FilesMemory::Dialog::open;
+  if (m.dialog == FilesMemory::Dialog::none) return;
+  const char* title = open ? "Open a scene" : "Save the scene";
+  if (!ImGui::IsPopupOpen(title)) {
+    ImGui::OpenPopup(title);
+    const fs::path file = ui.state.file.empty() ? fs::path() : fs::absolute(ui.state.file);
+    m.folder = file.empty() ? fs::current_path() : file.parent_path();
+    m.name = open ? "" : file.empty() ? "untitled.scene" : std::string(file.filename());
+  }
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({ui.scaled(560), 0});
+  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoResize)) return;
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextDisabled("%s", m.folder.c_str());
+  ImGui::PopTextWrapPos();
+  list_folder(ui);
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##name", &m.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.here("file name");
+  const fs::path chosen = fs::path(m.folder) / m.name;
+  std::error_code none;
+  const bool exists = !m.name.empty() && fs::is_regular_file(chosen, none);
+  if (!open && exists) ImGui::TextColored(ui.look().warning, "This file will be replaced.");
+  const bool possible = open ? exists : !m.name.empty();
+  if (!possible) ImGui::BeginDisabled();
+  const bool pressed = ImGui::Button(open ? "Open" : "Save", {ui.scaled(100), 0});
+  ui.here("confirm file");
+  if (!possible) ImGui::EndDisabled();
+  ImGui::SameLine();
+  const bool cancelled =
+      ImGui::Button("Cancel", {ui.scaled(100), 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if (possible && (pressed || entered)) {
+    if (open)
+      leave_for(ui, chosen);
+    else
+      ui.emit(Save{chosen});
+  }
+  if (cancelled || (possible && (pressed || entered))) {
+    m.dialog = FilesMemory::Dialog::none;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+void go(Ui& ui, const std::string& file) {
+  ui.memory.quit_asked = false;
+  ui.memory.after_saving.clear();
+  if (file.empty())
+    ui.memory.quit = true;
+  else
+    ui.emit(Open{file});
+}
+
+void draw_guard(Ui& ui) {
+  if (!ui.memory.quit_asked) return;
+  if (!ImGui::IsPopupOpen("Unsaved changes")) ImGui::OpenPopup("Unsaved changes");
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  const std::string name = ui.state.file.empty() ? "This scene" : std::string(fs::path(ui.state.file).filename());
+  ImGui::Text("%s has changes that are not saved.", name.c_str());
+  ImGui::Spacing();
+  const std::string next = ui.memory.after_saving;
+  if (ImGui::Button("Save", {ui.scaled(110), 0})) {
+    if (ui.state.file.empty()) {
+      ui.memory.files.dialog = FilesMemory::Dialog::save;
+      ui.memory.quit_asked = false;
+    } else {
+      ui.emit(Save{});
+      go(ui, next);
+    }
+    ImGui::CloseCurrentPopup();
+  }
+  ui.here("guard save");
+  ImGui::SameLine();
+  if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
+    go(ui, next);
+    ImGui::CloseCurrentPopup();
+  }
+  ui.here("guard discard");
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel", {ui.scaled(110), 0})) {
+    ui.memory.quit_asked = false;
+    ui.memory.after_saving.clear();
+    ImGui::CloseCurrentPopup();
+  }
+  ui.here("guard cancel");
+  ImGui::EndPopup();
+}
+
+}  // namespace
+
+std::string examples_folder() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  for (const fs::path& folder : {program.parent_path() / "../share/spacetime/examples", fs::path(SPACETIME_EXAMPLES)})
+    if (fs::is_directory(folder, none)) return fs::weakly_canonical(folder, none);
+  return "";
+}
+
+void leave_for(Ui& ui, const std::string& file) {
+  if (!unsaved(ui.state)) return go(ui, file);
+  ui.memory.quit_asked = true;
+  ui.memory.after_saving = file;
+}
+
+void draw_dialogs(Ui& ui) {
+  draw_welcome(ui);
+  draw_shortcuts(ui);
+  draw_files(ui);
+  draw_guard(ui);
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,185 @@
+#include "gui/views/equations.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+namespace spacetime::gui {
+namespace {
+
+constexpr Notice::Place place = Notice::Place::equations;
+
+const Violation* violation_of(const State& state, const std::string& name) {
+  if (!state.motion) return nullptr;
+  const auto found = std::ranges::find(state.motion->violations, name, &Violation::name);
+  return found == state.motion->violations.end() ? nullptr : &*found;
+}
+
+// What a statement says, without its first word and name: those have a column of their own.
+std::string body_of(const Equation& equation) {
+  const std::size_t colon = equation.text.find(':');
+  const std::size_t first = equation.text.find(' ');
+  const std::size_t from = equation.named && colon != std::string::npos ? colon + 1 : first;
+  if (from == std::string::npos) return equation.text;
+  const std::size_t text = equation.text.find_first_not_of(' ', from);
+  return text == std::string::npos ? "" : equation.text.substr(text);
+}
+
+void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, const char* hint) {
+  std::string text = ui.state.drafts.at(about);
+  ImGui::PushFont(ui.memory.fonts.code);
+  ImGui::SetNextItemWidth(-1);
+  const bool entered =
+      ImGui::InputTextWithHint(("##draft " + about).c_str(), hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.here("draft " + about);
+  ImGui::PopFont();
+  if (text != ui.state.drafts.at(about)) ui.emit(Draft{about, text});
+  if (entered && !text.empty()) ui.act(prefix + text, place, about);
+  ui.notices(place, about);
+  if (ImGui::SmallButton(("Apply##" + about).c_str()) && !text.empty()) ui.act(prefix + text, place, about);
+  ui.here("apply " + about);
+  ImGui::SameLine();
+  if (ImGui::SmallButton(("Cancel##" + about).c_str())) ui.emit(Draft{about, std::nullopt});
+}
+
+void draw_marks(Ui& ui, const Equation& equation) {
+  const Look& look = ui.look();
+  if (equation.objective) {
+    const auto& terms = ui.state.motion ? ui.state.motion->terms : std::vector<std::pair<std::string, double>>{};
+    const auto term = std::ranges::find(terms, equation.name, &std::pair<std::string, double>::first);
+    if (term != terms.end()) ImGui::TextUnformatted(shown(term->second).c_str());
+    ui.help("What it adds to the objective.");
+    return;
+  }
+  const Violation* violation = violation_of(ui.state, equation.name);
+  if (!violation) return;
+  const bool met = violation->max <= 1e-6;
+  ImGui::TextColored(met ? look.good : look.bad, "%s", met ? "met" : shown(violation->max).c_str());
+  if (ImGui::IsItemHovered()) {
+    std::string text = fmt::format("Off by {} at most", shown(violation->max));
+    if (violation->time) text += fmt::format(", at {} s", shown(*violation->time));
+    if (violation->multiplier)
+      text += fmt::format(
+          ".\nMultiplier {}: the objective falls by so much for each unit by which the right side is raised.",
+          shown(violation->multiplier->value));
+    ui.help(text.c_str());
+  }
+}
+
+void draw_menu(Ui& ui, const Equation& equation) {
+  const std::string& name = equation.name;
+  if (!ImGui::BeginPopupContextItem(("menu " + name).c_str(), ImGuiPopupFlags_MouseButtonRight)) return;
+  if (!equation.named) {
+    ImGui::TextDisabled("Give it a name in the scene to edit it here:");
+    ImGui::TextDisabled("constrain NAME: ...");
+  }
+  if (ImGui::MenuItem("Edit", nullptr, false, equation.named)) ui.emit(Draft{name, body_of(equation)});
+  if (ImGui::MenuItem(equation.enabled ? "Disable" : "Enable", nullptr, false, equation.named))
+    ui.act((equation.enabled ? "disable " : "enable ") + name, place, name);
+  if (ImGui::MenuItem("Make hard", nullptr, false, equation.named && equation.weight && !equation.objective))
+    ui.act("weight " + name + " = inf", place, name);
+  if (ImGui::MenuItem("Make soft, weight 1", nullptr, false, equation.named && !equation.weight))
+    ui.act("weight " + name + " = 1", place, name);
+  if (ImGui::MenuItem("Delete", nullptr, false, equation.named)) ui.act("delete " + name, place, name);
+  if (ImGui::MenuItem("Show in the scene's text")) ui.memory.scroll_to_line = equation.line;
+  ImGui::EndPopup();
+}
+
+void draw_weight(Ui& ui, const Equation& equation) {
+  if (!equation.weight) {
+    ImGui::TextDisabled("hard");
+    ui.help("It must hold. Give it a weight from its menu (right button) to make it soft.");
+    return;
+  }
+  double weight = *equation.weight;
+  ImGui::SetNextItemWidth(-1);
+  if (!equation.named) ImGui::BeginDisabled();
+  ImGui::InputDouble(("##weight " + equation.name).c_str(), &weight, 0, 0, "%.4g");
+  if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight)
+    ui.act("weight " + equation.name + " = " + written(weight), place, equation.name);
+  ui.here("weight " + equation.name);
+  if (!equation.named) ImGui::EndDisabled();
+  ui.help("How much it counts in the objective.");
+}
+
+void draw_row(Ui& ui, const Equation& equation) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  bool enabled = equation.enabled;
+  if (!equation.named) ImGui::BeginDisabled();
+  if (ImGui::Checkbox(("##on " + equation.name).c_str(), &enabled))
+    ui.act((enabled ? "enable " : "disable ") + equation.name, place, equation.name);
+  ui.here("enable " + equation.name);
+  if (!equation.named) ImGui::EndDisabled();
+  ui.help(equation.named ? "Whether it counts."
+                         : "Only what has a name in the scene can be edited here: constrain NAME: ...");
+  ImGui::TableNextColumn();
+  const bool selected = ui.state.selection.constraint == equation.name;
+  if (!equation.enabled) ImGui::PushStyleColor(ImGuiCol_Text, ui.look().faint);
+  if (ImGui::Selectable(equation.name.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
+    Selection selection = ui.state.selection;
+    selection.constraint = selected ? "" : equation.name;
+    ui.emit(Select{selection});
+    if (ImGui::IsMouseDoubleClicked(0) && equation.named) ui.emit(Draft{equation.name, body_of(equation)});
+  }
+  ui.here("equation " + equation.name);
+  if (!equation.enabled) ImGui::PopStyleColor();
+  draw_menu(ui, equation);
+  ui.help((equation.text + "\n\nDouble click to edit, right button for more.").c_str());
+  ImGui::TableNextColumn();
+  draw_weight(ui, equation);
+  ImGui::TableNextColumn();
+  if (equation.enabled) {
+    draw_marks(ui, equation);
+  } else {
+    ImGui::TextDisabled("off");
+  }
+}
+
+}  // namespace
+
+void draw_equations(Ui& ui) {
+  const State& s = ui.state;
+  if (!s.scene || !s.scene->problem) {
+    ImGui::TextWrapped("The scene has mistakes: see its text.");
+    return;
+  }
+  const Question& question = ui.question();
+  for (const bool objective : {false, true}) {
+    ImGui::PushFont(ui.memory.fonts.strong);
+    ImGui::TextUnformatted(objective ? "What is best" : "What must hold");
+    ImGui::PopFont();
+    const std::string fresh = objective ? "new objective" : "new constraint";
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ui.scaled(44));
+    if (ImGui::SmallButton(("+ Add##" + fresh).c_str())) ui.emit(Draft{fresh, std::string()});
+    ui.here("add " + fresh);
+    ui.help(objective ? "Add a term of the objective." : "Add a constraint.");
+    if (ImGui::BeginTable(objective ? "objective" : "constraints", 4, ImGuiTableFlags_RowBg)) {
+      ImGui::TableSetupColumn("on", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
+      ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+      ImGui::TableSetupColumn("weight", ImGuiTableColumnFlags_WidthFixed, ui.scaled(62));
+      ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, ui.scaled(66));
+      for (const Equation& equation : question.equations)
+        if (equation.objective == objective) draw_row(ui, equation);
+      ImGui::EndTable();
+    }
+    // Drafts stand under the table, at its full width, with their mistake under them.
+    for (const Equation& equation : question.equations) {
+      if (equation.objective != objective) continue;
+      if (s.drafts.contains(equation.name)) {
+        ImGui::TextDisabled("%s:", equation.name.c_str());
+        draw_draft(ui, equation.name, "replace " + equation.name + ": ", "");
+      } else {
+        ui.notices(place, equation.name);
+      }
+    }
+    if (s.drafts.contains(fresh))
+      draw_draft(ui, fresh, objective ? "minimize " : "constrain ",
+                 objective ? "calm: integral(x''^2) weight 1e-3" : "name: left = right  at 1");
+    ImGui::Spacing();
+  }
+  ui.notices(place);
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,188 @@
+#include "gui/views/freedoms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/bspline.h"
+
+namespace spacetime::gui {
+namespace {
+
+constexpr Notice::Place place = Notice::Place::status;
+
+void toggle(std::vector<std::string>& names, const std::string& name) {
+  if (const auto found = std::ranges::find(names, name); found != names.end())
+    names.erase(found);
+  else
+    names.push_back(name);
+}
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// Bounds are typed as two numbers; both are needed, since the language has no half-open bound.
+void draw_bounds(Ui& ui, const Freedom& dof) {
+  double ends[2]{dof.lower.value_or(-1e3), dof.upper.value_or(1e3)};
+  ImGui::SetNextItemWidth(ui.scaled(120));
+  ImGui::InputScalarN("##ends", ImGuiDataType_Double, ends, 2, nullptr, nullptr, "%.4g");
+  ImGui::SameLine();
+  if (ImGui::Button("Bound")) {
+    ui.act(fmt::format("bound {} in [{}, {}]", dof.name, written(ends[0]), written(ends[1])), place);
+    ImGui::CloseCurrentPopup();
+  }
+}
+
+void draw_menu(Ui& ui, const Freedom& dof) {
+  if (!ImGui::BeginPopupContextItem(("menu " + dof.name).c_str())) return;
+  ImGui::TextDisabled("%s", dof.name.c_str());
+  const std::string of = " of " + dof.name;
+  if (ImGui::MenuItem("Smooth", "filter")) ui.act("filter strength 0.5" + of);
+  ui.help("Damps what is rough in its curve.");
+  if (ImGui::MenuItem("Shake", "shake")) ui.act("shake amplitude 0.1" + of);
+  ui.help("Disturbs its curve, to leave a local minimum.");
+  if (ImGui::MenuItem("Refine", "refine")) ui.act("refine" + of);
+  ui.help("Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
+  if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act("damp 0.1" + of);
+  ImGui::Separator();
+  draw_bounds(ui, dof);
+  ImGui::EndPopup();
+}
+
+// A name with the colour of its curve before it, where that is shown.
+bool draw_shown(Ui& ui, const std::string& name, const std::string& label, bool selected) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float size = ui.scaled(9), middle = at.y + ImGui::GetTextLineHeight() / 2;
+  const ImU32 colour = packed(colour_of(ui, name));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low{at.x, middle - size / 2}, high{at.x + size, middle + size / 2};
+  if (selected)
+    list.AddRectFilled(low, high, colour, 2);
+  else
+    list.AddRect(low, high, packed(ui.look().line), 2);
+  ImGui::SetCursorScreenPos({at.x + size + ui.scaled(6), at.y});
+  return ImGui::Selectable((label + "##" + name).c_str(), false);
+}
+
+// By creature; what belongs to none stands first.
+void draw_expressions(Ui& ui, const Problem& problem) {
+  std::string creature;
+  bool open = true;
+  for (const Plot& plot : problem.plots) {
+    const std::size_t dot = plot.name.find('.');
+    const std::string of = dot == std::string::npos ? "" : plot.name.substr(0, dot);
+    if (of != creature) {
+      if (!creature.empty() && open) ImGui::TreePop();
+      open = of.empty() || ImGui::TreeNode(of.c_str());
+      if (!of.empty()) ui.here("expressions " + of);
+      creature = of;
+    }
+    if (!open) continue;
+    const std::string label = dot == std::string::npos ? plot.name : plot.name.substr(dot + 1);
+    if (draw_shown(ui, plot.name, label, is_among(ui.state.selection.expressions, plot.name))) {
+      Selection selection = ui.state.selection;
+      toggle(selection.expressions, plot.name);
+      ui.emit(Select{selection});
+    }
+    ui.here("expression " + plot.name);
+  }
+  if (!creature.empty() && open) ImGui::TreePop();
+}
+
+}  // namespace
+
+std::string of_names(const std::vector<std::string>& dofs) {
+  if (dofs.empty()) return "";
+  return fmt::format(" of {}", fmt::join(dofs, ", "));
+}
+
+std::string window_line(const std::optional<std::pair<double, double>>& interval,
+                        const std::vector<std::string>& dofs) {
+  if (!interval && dofs.empty()) return "window all";
+  if (!interval) return "";  // the caller gives the whole time
+  return fmt::format("window [{}, {}]{}", written(interval->first), written(interval->second), of_names(dofs));
+}
+
+ImVec4 colour_of(const Ui& ui, const std::string& name) {
+  std::size_t index = 0;
+  if (ui.state.scene && ui.state.scene->problem) {
+    const Problem& problem = *ui.state.scene->problem;
+    const auto dof = std::ranges::find(problem.dofs, name, &Dof::name);
+    index = static_cast<std::size_t>(dof - problem.dofs.begin());
+    if (dof == problem.dofs.end())
+      index += static_cast<std::size_t>(std::ranges::find(problem.plots, name, &Plot::name) - problem.plots.begin());
+  }
+  return ui.look().curves[index % ui.look().curves.size()];
+}
+
+void draw_freedoms(Ui& ui) {
+  const State& s = ui.state;
+  if (!s.scene || !s.scene->problem) {
+    ImGui::TextWrapped("The scene has mistakes: see its text.");
+    return;
+  }
+  const Problem& problem = *s.scene->problem;
+  const Question& question = ui.question();
+  const bool narrowed =
+      question.window || std::ranges::any_of(question.dofs, [](const Freedom& f) { return !f.in_window; });
+  if (!narrowed) ImGui::BeginDisabled();
+  if (ImGui::SmallButton("Free all")) ui.act("window all");
+  ui.here("free all");
+  if (!narrowed) ImGui::EndDisabled();
+  ui.help("Opens the window: everything moves again at all times.");
+  if (ImGui::BeginTable("freedoms", 4, ImGuiTableFlags_RowBg)) {
+    ImGui::TableSetupColumn("free", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("now", ImGuiTableColumnFlags_WidthFixed, ui.scaled(62));
+    ImGui::TableSetupColumn("limits", ImGuiTableColumnFlags_WidthFixed, ui.scaled(88));
+    for (const Freedom& dof : question.dofs) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      bool in = dof.in_window;
+      if (ImGui::Checkbox(("##in " + dof.name).c_str(), &in)) {
+        std::vector<std::string> names;
+        for (const Freedom& other : question.dofs)
+          if (other.name == dof.name ? in : other.in_window) names.push_back(other.name);
+        const bool all = names.size() == question.dofs.size();
+        auto interval = question.window;
+        if (!all && !interval) interval = {problem.start, problem.end};
+        // A window has to free something: taking the last one out is not possible.
+        if (!names.empty()) ui.act(window_line(interval, all ? std::vector<std::string>{} : names));
+      }
+      ui.here("free " + dof.name);
+      ui.help("In the window: the optimiser may change it.");
+      ImGui::TableNextColumn();
+      if (draw_shown(ui, dof.name, dof.name, is_among(s.selection.dofs, dof.name))) {
+        Selection selection = s.selection;
+        toggle(selection.dofs, dof.name);
+        ui.emit(Select{selection});
+      }
+      ui.here("dof " + dof.name);
+      draw_menu(ui, dof);
+      ui.help("Click to show its curve; right button to smooth, shake, refine, damp or bound it.");
+      ImGui::TableNextColumn();
+      if (s.curves) {
+        const auto curve = std::ranges::find(s.curves->dofs, dof.name, &Trajectory::name);
+        if (curve != s.curves->dofs.end())
+          ImGui::TextUnformatted(shown(value(curve->basis, curve->coefficients, s.playback.time)).c_str());
+      }
+      ImGui::TableNextColumn();
+      std::string limits;
+      if (dof.lower || dof.upper)
+        limits = fmt::format("[{:.3g}, {:.3g}]", dof.lower.value_or(-1e99), dof.upper.value_or(1e99));
+      if (dof.damping) limits += fmt::format(" d {:.2g}", *dof.damping);
+      ImGui::TextDisabled("%s", limits.c_str());
+    }
+    ImGui::EndTable();
+  }
+  if (!problem.plots.empty()) {
+    ImGui::Spacing();
+    ImGui::PushFont(ui.memory.fonts.strong);
+    ImGui::TextUnformatted("Expressions");
+    ImGui::PopFont();
+    draw_expressions(ui, problem);
+  }
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,155 @@
+#include "gui/views/texts.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace spacetime::gui {
+namespace {
+
+const Diagnostic* mistake_in(const std::vector<Diagnostic>& mistakes, int line) {
+  const auto found = std::ranges::find_if(mistakes, [&](const Diagnostic& d) { return d.span.line == line; });
+  return found == mistakes.end() ? nullptr : &*found;
+}
+
+void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diagnostic>& mistakes) {
+  const Look& look = ui.look();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
+  const auto& outline = ui.state.scene->outline;
+  const auto statement = std::ranges::find_if(outline, [&](const Statement& s) { return s.line == number; });
+  if (statement != outline.end() && !statement->name.empty() && statement->name == ui.state.selection.constraint)
+    list.AddRectFilled({at.x - 4, at.y - 1}, {at.x + width, at.y + height + 1}, packed(look.accent, 0.18F), 3);
+  if (ui.memory.scroll_to_line == number) {
+    ImGui::SetScrollHereY(0.4F);
+    ui.memory.scroll_to_line = 0;
+  }
+  ImGui::TextDisabled("%3d", number);
+  ImGui::SameLine(0, ui.scaled(10));
+  // Comments stand back; the word a statement begins with stands out.
+  const std::size_t comment = std::min(line.find('#'), line.size());
+  std::string_view code = line.substr(0, comment);
+  const float gap = 0;
+  if (statement != outline.end() && code.find(statement->word) == code.find_first_not_of(' ')) {
+    const std::size_t end = code.find(statement->word) + statement->word.size();
+    ImGui::PushStyleColor(ImGuiCol_Text, look.accent);
+    ImGui::TextUnformatted(code.data(), code.data() + end);
+    ImGui::PopStyleColor();
+    ImGui::SameLine(0, gap);
+    code = code.substr(end);
+  }
+  ImGui::TextUnformatted(code.data(), code.data() + code.size());
+  if (comment < line.size()) {
+    ImGui::SameLine(0, gap);
+    ImGui::PushStyleColor(ImGuiCol_Text, look.faint);
+    ImGui::TextUnformatted(line.data() + comment, line.data() + line.size());
+    ImGui::PopStyleColor();
+  }
+  if (const Diagnostic* mistake = mistake_in(mistakes, number)) {
+    const float digit = ImGui::CalcTextSize("0").x;
+    const float left = at.x + 3 * digit + ui.scaled(10) + static_cast<float>(mistake->span.column - 1) * digit;
+    const float right = left + static_cast<float>(std::max(1, mistake->span.length)) * digit, y = at.y + height;
+    for (float x = left; x < right; x += 4)
+      list.AddLine({x, y + 1}, {std::min(x + 2, right), y - 1}, packed(look.bad), 1.5F);
+    ImGui::PushFont(ui.memory.fonts.text);
+    ImGui::PushStyleColor(ImGuiCol_Text, look.bad);
+    ImGui::Indent(left - at.x);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(mistake->message.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::Unindent(left - at.x);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ui.here(fmt::format("mistake {}", number));
+  }
+}
+
+}  // namespace
+
+void draw_text(Ui& ui) {
+  const State& s = ui.state;
+  ui.notices(Notice::Place::scene_text);
+  if (!s.scene) {
+    ImGui::TextDisabled("No scene is open.");
+    return;
+  }
+  const std::string text = text_of(s);
+  ImGui::PushFont(ui.memory.fonts.code);
+  ImGui::BeginChild("text", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+  int number = 0;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    draw_line(ui, rest.substr(0, end), ++number, s.scene->diagnostics);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  ImGui::EndChild();
+  ImGui::PopFont();
+}
+
+void draw_log(Ui& ui) {
+  const State& s = ui.state;
+  ImGui::TextDisabled("Every act is a line of the scene. Click one to go back to it.");
+  ImGui::BeginChild("entries");
+  for (std::size_t i = 0; i < s.log.size(); ++i) {
+    const Entry& entry = s.log[i];
+    const bool future = static_cast<int>(i) > s.present, here = static_cast<int>(i) == s.present;
+    std::string line = i == 0 ? "the scene as it was opened" : entry.text;
+    std::ranges::replace(line, '\n', ' ');
+    if (i > 0 && entry.motion && entry.iterated)
+      line += fmt::format("   ({}, {})", name_of(entry.motion->status), shown(entry.motion->objective));
+    ImGui::PushStyleColor(ImGuiCol_Text, future ? ui.look().faint : ui.look().text);
+    ImGui::PushFont(i == 0 ? ui.memory.fonts.text : ui.memory.fonts.code);
+    if (ImGui::Selectable(fmt::format("{}##{}", line, i).c_str(), here) && entry.checkpoint)
+      ui.emit(GoTo{static_cast<int>(i)});
+    ImGui::PopFont();
+    ImGui::PopStyleColor();
+    ui.here(fmt::format("entry {}", i));
+    if (future) ui.help("Undone: click to redo up to here.");
+    if (here && i + 1 == s.log.size()) ImGui::SetScrollHereY(1);
+  }
+  for (const std::string& line : s.script) {
+    ImGui::TextDisabled("to do: %s", line.c_str());
+    ui.help("The file asks for this: Run performs it.");
+  }
+  ImGui::EndChild();
+}
+
+void draw_console(Ui& ui) {
+  Memory& m = ui.memory;
+  ImGui::PushFont(m.fonts.code);
+  const float below = 2 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing();
+  ImGui::BeginChild("answers", {0, -below});
+  for (const ConsoleLine& line : ui.state.console) {
+    ImGui::TextColored(ui.look().accent, "> %s", line.asked.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, line.wrong ? ui.look().bad : ui.look().text);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(line.waiting ? "..." : line.answer.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+  }
+  if (ui.state.console.empty())
+    ImGui::TextDisabled("Ask for an expression of the scene:\n  arm.elbow.force\nor its derivative by something.");
+  if (!ui.state.console.empty() && ui.state.console.back().waiting) ImGui::SetScrollHereY(1);
+  ImGui::EndChild();
+  ImGui::SetNextItemWidth(-1);
+  bool asked = ImGui::InputTextWithHint("##expression", "expression", &m.console, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.here("console");
+  ImGui::SetNextItemWidth(-ui.scaled(60));
+  asked |= ImGui::InputTextWithHint("##by", "differentiate by (optional)", &m.console_by,
+                                    ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.here("console by");
+  ImGui::SameLine();
+  asked |= ImGui::Button("Ask", {-1, 0});
+  ui.here("ask");
+  ImGui::PopFont();
+  ui.notices(Notice::Place::console);
+  if (!asked || m.console.empty()) return;
+  ui.emit(Ask{m.console, m.console_by});
+  m.console.clear();
+}
+
+}  // namespace spacetime::gui

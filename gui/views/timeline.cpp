@@ -1,0 +1,283 @@
+#include "gui/views/timeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/bspline.h"
+#include "gui/views/curves.h"
+#include "gui/views/freedoms.h"
+#include "gui/views/plot_frame.h"
+
+namespace spacetime::gui {
+namespace {
+
+struct Axis {
+  double start = 0, end = 1;  // s
+  float left = 0, right = 1;  // pixels
+  float x(double t) const { return left + static_cast<float>((t - start) / (end - start)) * (right - left); }
+  double time(float pixel) const {
+    return std::clamp(start + (pixel - left) / (right - left) * (end - start), start, end);
+  }
+};
+
+// Dragged times snap to hundredths of a second, unless Alt is held.
+double snapped(double t) { return ImGui::GetIO().KeyAlt ? t : std::round(t * 100) / 100; }
+
+void move_to(Ui& ui, double time) {
+  Playback playback = ui.state.playback;
+  playback.time = time;
+  playback.playing = false;
+  ui.emit(SetPlayback{playback});
+}
+
+enum class Icon { first, back, play, pause, forward, last };
+
+// A button with a drawn sign: fonts do not agree on these.
+bool draw_icon(Ui& ui, Icon icon, const char* name, const char* help) {
+  const bool pressed = ImGui::Button((std::string("##") + name).c_str(), {ui.scaled(32), 0});
+  ui.here(name);
+  ui.help(help);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImVec2 c{(low.x + high.x) / 2, (low.y + high.y) / 2};
+  const float r = ui.scaled(5), w = ui.scaled(2.5F);
+  const ImU32 colour = packed(ui.look().text);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto triangle = [&](float x, float direction) {
+    list.AddTriangleFilled({x - direction * r * 0.8F, c.y - r}, {x - direction * r * 0.8F, c.y + r},
+                           {x + direction * r, c.y}, colour);
+  };
+  const auto bar = [&](float x) { list.AddRectFilled({x - w / 2, c.y - r}, {x + w / 2, c.y + r}, colour); };
+  if (icon == Icon::first) triangle(c.x + 1, -1), bar(c.x - r);
+  if (icon == Icon::last) triangle(c.x - 1, 1), bar(c.x + r);
+  if (icon == Icon::back) triangle(c.x - r / 2, -1), bar(c.x + r);
+  if (icon == Icon::forward) triangle(c.x + r / 2, 1), bar(c.x - r);
+  if (icon == Icon::play) triangle(c.x, 1);
+  if (icon == Icon::pause) bar(c.x - r / 2), bar(c.x + r / 2);
+  ImGui::SameLine(0, ui.scaled(4));
+  return pressed;
+}
+
+void draw_transport(Ui& ui, const Axis& axis) {
+  const Playback& p = ui.state.playback;
+  const double frame = 1 / p.rate;
+  if (draw_icon(ui, Icon::first, "to start", "To the start (Home)")) move_to(ui, axis.start);
+  if (draw_icon(ui, Icon::back, "frame back", "One frame back (Left)"))
+    move_to(ui, std::max(axis.start, p.time - frame));
+  if (draw_icon(ui, p.playing ? Icon::pause : Icon::play, "play", "Play or pause (Space)")) ui.emit(Play{!p.playing});
+  if (draw_icon(ui, Icon::forward, "frame forward", "One frame forward (Right)"))
+    move_to(ui, std::min(axis.end, p.time + frame));
+  if (draw_icon(ui, Icon::last, "to end", "To the end (End)")) move_to(ui, axis.end);
+  Playback changed = p;
+  if (ImGui::Checkbox("Loop", &changed.loop)) ui.emit(SetPlayback{changed});
+  ui.here("loop");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ui.scaled(76));
+  const char* speeds[] = {"1/8 x", "1/4 x", "1/2 x", "1 x", "2 x"};
+  int which = std::clamp(static_cast<int>(std::lround(std::log2(p.speed))) + 3, 0, 4);
+  if (ImGui::Combo("##speed", &which, speeds, 5)) {
+    changed.speed = std::exp2(which - 3);
+    ui.emit(SetPlayback{changed});
+  }
+  ui.help("How fast it plays.");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ui.scaled(64));
+  int rate = static_cast<int>(p.rate);
+  if (ImGui::InputInt("frames/s", &rate, 0) && rate >= 1 && rate <= 1000) {
+    changed.rate = rate;
+    ui.emit(SetPlayback{changed});
+  }
+  ui.help("Frames a second: what the arrow keys step by, and a film is made with.");
+  ImGui::SameLine(0, ui.scaled(20));
+  ImGui::PushFont(ui.memory.fonts.strong);
+  ImGui::Text("%.3f s", p.time);
+  ImGui::PopFont();
+  ui.here("time");
+  ui.notices(Notice::Place::timeline);
+}
+
+void label_of(const Ui& ui, ImDrawList& list, const Axis& axis, float y, const std::string& text,
+              const ImVec4& colour) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float left = axis.left - 8 - std::min(size.x, ui.scaled(156));
+  list.PushClipRect({axis.left - ui.scaled(164), y - size.y}, {axis.left - 6, y + size.y}, true);
+  list.AddText({left, y - size.y / 2}, packed(colour), text.c_str());
+  list.PopClipRect();
+}
+
+void draw_ruler(Ui& ui, const Axis& axis) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ui.scaled(24);
+  ImGui::SetCursorScreenPos({axis.left - 6, at.y});
+  ImGui::InvisibleButton("ruler", {axis.right - axis.left + 12, height});
+  ui.here("ruler");
+  ui.help("Click or drag to move through time.");
+  if (ImGui::IsItemActive()) move_to(ui, axis.time(ImGui::GetIO().MousePos.x));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const double step = round_step(axis.end - axis.start, (axis.right - axis.left) / ui.scaled(70));
+  for (int k = 0; k * step / 5 <= axis.end - axis.start + 1e-9; ++k) {
+    const double t = axis.start + k * step / 5;
+    const bool named = k % 5 == 0;
+    const float x = axis.x(t);
+    list.AddLine({x, at.y + (named ? 12.0F : 17.0F) * ui.memory.scale}, {x, at.y + height}, packed(ui.look().line));
+    if (!named) continue;
+    const std::string text = fmt::format("{:g}", std::round(t * 1e6) / 1e6);
+    list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.look().faint), text.c_str());
+  }
+  // Keyframes of the sketch.
+  if (const auto& scene = ui.state.scene; scene && scene->problem) {
+    for (const Keyframe& key : scene->problem->keyframes) {
+      const float x = axis.x(value_of(key.time, *scene->problem, ui.question().constants)), y = at.y + height - 5;
+      const float r = ui.scaled(4);
+      list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.look().curves[1]));
+    }
+  }
+  ImGui::SetCursorScreenPos({at.x, at.y + height});
+}
+
+// A bar from `from` to `to` whose ends can be dragged; the new ends when they are let go.
+std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, const std::string& name, double from,
+                                                  double to, const ImVec4& colour, bool editable) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ui.scaled(12);
+  static std::string dragged;  // one mouse, one drag
+  static double ends[2];
+  if (dragged == name) {
+    from = ends[0];
+    to = ends[1];
+  }
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float a = axis.x(from), b = std::max(axis.x(to), a + 3);
+  list.AddRectFilled({a, at.y + 2}, {b, at.y + height}, packed(colour, 0.55F), 3);
+  std::optional<std::pair<double, double>> result;
+  if (!editable) return result;
+  for (const int end : {0, 1}) {
+    const float x = end == 0 ? a : b;
+    ImGui::SetCursorScreenPos({x - 5, at.y});
+    ImGui::PushID(end);
+    ImGui::InvisibleButton(name.c_str(), {10, height + 2});
+    ImGui::PopID();
+    ui.here(name + (end == 0 ? " from" : " to"));
+    const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    if (hot) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    list.AddRectFilled({x - 2, at.y + 1}, {x + 2, at.y + height + 1}, packed(hot ? ui.look().text : colour), 2);
+    if (ImGui::IsItemActivated()) {
+      dragged = name;
+      ends[0] = from;
+      ends[1] = to;
+    }
+    if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 1)) {
+      ends[end] = snapped(axis.time(ImGui::GetIO().MousePos.x));
+      if (end == 0) ends[0] = std::min(ends[0], ends[1]);
+      if (end == 1) ends[1] = std::max(ends[0], ends[1]);
+    }
+    if (ImGui::IsItemDeactivated()) {
+      if (dragged == name && (ends[0] != from || ends[1] != to || ImGui::GetIO().MouseDragMaxDistanceSqr[0] > 1))
+        result = {ends[0], ends[1]};
+      dragged.clear();
+    }
+  }
+  return result;
+}
+
+std::string scope_line(const Equation& equation, double from, double to, const Problem& problem,
+                       const std::map<std::string, double>& constants) {
+  std::string line = fmt::format("scope {} over [{}, {}]", equation.name, written(from), written(to));
+  if (equation.scope.kind == Scope::Kind::every)
+    line += " every " + written(value_of(equation.scope.step, problem, constants));
+  if (equation.scope.kind == Scope::Kind::count) line += fmt::format(" count {}", equation.scope.count);
+  return line;
+}
+
+void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
+  const Question& question = ui.question();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  label_of(ui, *ImGui::GetWindowDrawList(), axis, at.y + ui.scaled(7), "window", ui.look().text);
+  const auto shown_window = question.window.value_or(std::pair{problem.start, problem.end});
+  if (const auto ends = draw_bar(ui, axis, "window", shown_window.first, shown_window.second, ui.look().accent, true);
+      ends && ends->second > ends->first) {
+    std::vector<std::string> names;
+    for (const Freedom& dof : question.dofs)
+      if (dof.in_window) names.push_back(dof.name);
+    if (names.size() == question.dofs.size()) names.clear();
+    const bool all = ends->first <= problem.start && ends->second >= problem.end;
+    ui.act(all && names.empty() ? "window all" : window_line(ends, names), Notice::Place::timeline);
+  }
+  ImGui::SetCursorScreenPos({at.x, at.y + ui.scaled(16)});
+}
+
+void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
+  const Question& question = ui.question();
+  const Basis basis =
+      ui.state.curves && !ui.state.curves->dofs.empty()
+          ? std::ranges::max(ui.state.curves->dofs, {}, [](const Trajectory& c) { return c.basis.knots.size(); }).basis
+          : uniform_basis(problem.start, problem.end, 1);
+  for (const Equation& equation : question.equations) {
+    if (equation.objective || equation.scope.kind == Scope::Kind::once) continue;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float y = at.y + ui.scaled(7);
+    const bool selected = ui.state.selection.constraint == equation.name;
+    const ImVec4 colour = !equation.enabled ? ui.look().line : selected ? ui.look().accent : ui.look().curves[2];
+    label_of(ui, list, axis, y, equation.name, selected ? ui.look().accent : ui.look().faint);
+    std::vector<double> times;
+    try {
+      times = times_of(equation.scope, problem, question.constants, basis);
+    } catch (const InputError&) {
+      // A constant has been set so that the scope makes no sense; the optimizer says so where it was set.
+    }
+    const bool interval = equation.scope.kind == Scope::Kind::every || equation.scope.kind == Scope::Kind::count ||
+                          equation.scope.kind == Scope::Kind::knots || equation.scope.kind == Scope::Kind::whole;
+    if (interval && !times.empty()) {
+      const bool editable = equation.named && equation.scope.kind != Scope::Kind::whole;
+      if (const auto ends = draw_bar(ui, axis, "scope " + equation.name, times.front(), times.back(), colour, editable);
+          ends && ends->second >= ends->first)
+        ui.act(scope_line(equation, ends->first, ends->second, problem, question.constants), Notice::Place::timeline);
+    }
+    for (const double t : times)
+      list.AddCircleFilled({axis.x(t), y}, ui.scaled(interval ? 1.5F : 4), packed(colour), 10);
+    ImGui::SetCursorScreenPos({at.x, at.y + ui.scaled(16)});
+  }
+}
+
+}  // namespace
+
+void draw_timeline(Ui& ui) {
+  const State& s = ui.state;
+  const bool there = s.scene && s.scene->problem;
+  Axis axis;
+  if (there) {
+    axis.start = s.scene->problem->start;
+    axis.end = s.scene->problem->end;
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  axis.left = at.x + ui.scaled(166);
+  axis.right = at.x + width - ui.scaled(18);
+  draw_transport(ui, axis);
+  if (!there) {
+    ImGui::TextDisabled("There is no motion: the scene has mistakes.");
+    return;
+  }
+  draw_ruler(ui, axis);
+  const float below = ImGui::GetCursorScreenPos().y;
+  draw_window_row(ui, axis, *s.scene->problem);
+  // Scopes take what they need, up to a third of the panel; the rest scrolls.
+  const auto rows = std::ranges::count_if(
+      ui.question().equations, [](const Equation& e) { return !e.objective && e.scope.kind != Scope::Kind::once; });
+  const float most = ImGui::GetContentRegionAvail().y * 0.36F;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::BeginChild("scopes", {0, std::min(most, ui.scaled(16) * static_cast<float>(rows) + 2)});
+  draw_scopes(ui, axis, *s.scene->problem);
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  draw_curves(ui, axis.left, axis.right);
+  // The cursor goes through everything.
+  const float x = axis.x(s.playback.time);
+  ImGui::GetWindowDrawList()->AddLine({x, below - ui.scaled(10)}, {x, at.y + ImGui::GetWindowHeight()},
+                                      packed(ui.look().bad, 0.9F), 1.5F);
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,66 @@
+#include "gui/views/ui.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace spacetime::gui {
+
+const Question& Ui::question() const {
+  if (memory.asked != state.scene) {
+    memory.asked = state.scene;
+    memory.question = state.scene ? question_of(*state.scene) : Question{};
+    memory.measured = -1;
+  }
+  return memory.question;
+}
+
+const Residuals& Ui::residuals() const {
+  question();
+  if (memory.measured != state.revision || memory.residuals.size() != memory.question.equations.size()) {
+    memory.measured = state.revision;
+    memory.residuals.assign(memory.question.equations.size(), {});
+    if (state.scene && state.scene->problem && state.curves)
+      memory.residuals = residuals_of(memory.question, *state.scene->problem, *state.curves);
+  }
+  return memory.residuals;
+}
+
+void Ui::here(const std::string& name) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  memory.places[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void Ui::help(const char* text) const {
+  // A disabled control needs its help most.
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(scaled(340));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void Ui::notices(Notice::Place place, const std::string& about) {
+  for (std::size_t i = 0; i < state.notices.size(); ++i) {
+    const Notice& notice = state.notices[i];
+    if (notice.place != place || notice.about != about) continue;
+    const ImVec4& colour = notice.severity == Severity::error     ? look().bad
+                           : notice.severity == Severity::warning ? look().warning
+                                                                  : look().faint;
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", notice.text.c_str());
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemClicked()) emit(Dismiss{static_cast<int>(i)});
+    help("Click to put this message away.");
+  }
+}
+
+std::string written(double number) { return fmt::format("{}", number); }
+
+std::string shown(double number) {
+  if (!std::isfinite(number)) return "no number";
+  return fmt::format("{:.4g}", number);
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,109 @@
+// What every view gets: the state to show, where to put what the person does, and its own memory of how it is looked at
+// (what is open, scrolled, or half typed), which is nobody else's business.
+#pragma once
+
+#include <imgui.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gui/event.h"
+#include "gui/question.h"
+#include "gui/render/camera.h"
+#include "gui/residuals.h"
+#include "gui/state.h"
+#include "gui/views/theme.h"
+
+namespace spacetime::gui {
+
+struct Rect {
+  float x = 0, y = 0, width = 0, height = 0;  // pixels, from the window's upper left corner
+};
+
+struct CurvesMemory {
+  double from = 0, to = 0;   // s, shown; equal: all
+  double low = 0, high = 0;  // shown; equal: fitted
+  bool derivative[3]{true, false, false};
+  bool controls = true, knots = true;
+  enum class Show { curves, residuals } show = Show::curves;
+  std::string dragged;  // degree of freedom of the control point that is being dragged
+  int dragged_index = -1;
+  double dragged_value = 0;
+};
+
+struct SceneMemory {
+  Camera camera{.pitch = 0.12F};  // a little from above, so that the ground is seen
+  float ground = 0;               // m, under the lowest that the figure comes
+  bool framed = false;            // the camera has been put in front of the scene
+  std::string framed_for;
+  bool trails = true, ghosts = true, forces = false, marks = true;
+  bool follow_plane = true;  // drag within the picture's plane
+  std::string dragging;      // a place or a body's point
+};
+
+struct EquationsMemory {
+  std::string filter;
+  std::string weight_of;
+};
+
+struct FilesMemory {
+  enum class Dialog { none, open, save, film } dialog = Dialog::none;
+  std::string folder, name;
+  std::string error;
+};
+
+struct Memory {
+  Fonts fonts;
+  Look look;
+  float scale = 1;
+  std::shared_ptr<const Scene> asked;  // what `question` was worked out from
+  Question question;
+  long measured = -1;  // State::revision that `residuals` are of
+  Residuals residuals;
+  std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
+  SceneMemory scene;
+  CurvesMemory curves;
+  EquationsMemory equations;
+  FilesMemory files;
+  float left = 320, right = 330, bottom = 310;  // pixels at scale 1, of the panels
+  int tab_left = -1, tab_right = -1;            // to be chosen in the next frame
+  bool welcome = false, shortcuts = false;
+  bool quit_asked = false, quit = false;  // the window is to be closed
+  std::string after_saving;               // what to open once the person has decided about unsaved changes
+  std::string console, console_by;
+  int scroll_to_line = 0;  // in the scene text
+  int method = 0;
+  double tolerance = 1e-8;
+  int starts = 1, iterations = 0;
+};
+
+struct Ui {
+  const State& state;
+  Memory& memory;
+  std::vector<Event>& events;
+
+  void emit(Event event) { events.push_back(std::move(event)); }
+  void act(std::string line, Notice::Place place = Notice::Place::status, std::string about = {}) {
+    emit(Act{std::move(line), place, std::move(about)});
+  }
+  const Look& look() const { return memory.look; }
+  const Question& question() const;    // of the scene shown
+  const Residuals& residuals() const;  // of its equations, on the curves shown
+  float scaled(float pixels) const { return pixels * memory.scale; }
+
+  // Remembers where the last item is, so that it can be found by name.
+  void here(const std::string& name);
+  // Help that appears over the last item.
+  void help(const char* text) const;
+  // The notices of a place, about something or about nothing in particular.
+  void notices(Notice::Place place, const std::string& about = {});
+};
+
+// A number as the scene language writes it: the shortest that reads back to the same bits.
+std::string written(double number);
+// A number for people: four significant digits.
+std::string shown(double number);
+
+}  // namespace spacetime::gui

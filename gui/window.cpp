@@ -1,0 +1,113 @@
+#include "gui/window.h"
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <memory>
+
+#include "common/diagnostic.h"
+#include "gui/views/dialogs.h"
+#include "gui/views/layout.h"
+
+namespace spacetime::gui {
+namespace {
+
+// GLFW tells why only to a callback.
+std::string last_error;
+void take_error(int, const char* text) { last_error = text; }
+
+// Everything that lives as long as the window, and ends in the right order.
+class Shell {
+ public:
+  Shell() {
+    glfwSetErrorCallback(take_error);
+    if (glfwInit() == GLFW_FALSE)
+      throw InputError("no window can be opened (" + last_error +
+                       "): start it in a graphical session, or use 'spacetime-gui render' for pictures");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    window = glfwCreateWindow(1280, 800, "Spacetime", nullptr, nullptr);
+    if (!window) {
+      glfwTerminate();
+      throw InputError("there is no OpenGL 3.3 here (" + last_error +
+                       "): install a driver, or libgl1-mesa-dri to draw on the processor");
+    }
+    glfwMakeContextCurrent(window);
+    glfwSwapInterval(1);
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330");
+  }
+  ~Shell() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(window);
+    glfwTerminate();
+  }
+  Shell(const Shell&) = delete;
+  Shell& operator=(const Shell&) = delete;
+
+  GLFWwindow* window = nullptr;
+};
+
+}  // namespace
+
+int run_window(Hub& hub, float scale) {
+  Shell shell;
+  Memory memory;
+  if (scale <= 0) {
+    float across = 1, down = 1;
+    glfwGetWindowContentScale(shell.window, &across, &down);
+    scale = across;
+  }
+  memory.scale = scale;
+  memory.fonts = load_fonts(scale);
+  memory.welcome = hub.state().scene == nullptr && hub.state().file.empty();
+  const auto scene = std::make_unique<SceneView>();
+  bool styled = false, dark = false;
+  auto before = std::chrono::steady_clock::now();
+  while (!memory.quit) {
+    glfwPollEvents();
+    const auto now = std::chrono::steady_clock::now();
+    hub.step(std::chrono::duration<double>(now - before).count());
+    before = now;
+    const State& state = hub.state();
+    if (!styled || dark != state.dark) {
+      styled = true;
+      dark = state.dark;
+      memory.look = look_of(dark);
+      apply(memory.look, scale);
+    }
+    std::vector<Event> events;
+    Ui ui{state, memory, events};
+    if (glfwWindowShouldClose(shell.window) == GLFW_TRUE) {
+      glfwSetWindowShouldClose(shell.window, GLFW_FALSE);
+      leave_for(ui, "");
+    }
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    draw_window(ui, *scene);
+    ImGui::Render();
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(shell.window, &width, &height);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glClearColor(memory.look.ground.x, memory.look.ground.y, memory.look.ground.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    glfwSwapBuffers(shell.window);
+    for (Event& event : events) hub.post(std::move(event));
+  }
+  hub.step(0);  // what was asked for last: saving, most often
+  return 0;
+}
+
+}  // namespace spacetime::gui
