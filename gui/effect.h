@@ -49,13 +49,16 @@ struct JournalLine {
 struct JournalEnd {
   bool keep = false;  // what was not saved can be brought back
 };
+struct JournalDrop {  // of a session that ended
+  std::string journal;
+};
 struct KeepSettings {
   bool dark = true;
   std::vector<std::string> recent;
 };
 
-using Effect =
-    std::variant<Request, Cancel, ReadFile, WriteFile, WatchFile, JournalBegin, JournalLine, JournalEnd, KeepSettings>;
+using Effect = std::variant<Request, Cancel, ReadFile, WriteFile, WatchFile, JournalBegin, JournalLine, JournalEnd,
+                            JournalDrop, KeepSettings>;
 using Effects = std::vector<Effect>;
 
 }  // namespace spacetime::gui

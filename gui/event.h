@@ -26,7 +26,10 @@ struct Save {
 struct Act {
   std::string line;
   Notice::Place place = Notice::Place::status;
-  std::string about;
+  std::string about{};
+};
+struct DropSession {  // one that ended without being saved: it is not wanted any more
+  std::string journal;
 };
 struct RunScript {};  // what the file still has to do; `solve` where there is nothing
 struct Stop {};       // ends what iterates; what it reached is kept
@@ -44,7 +47,7 @@ struct Steered {
 };
 struct DropGhost {};
 struct Ask {  // the console: an expression to print, differentiate `by`, evaluate and count
-  std::string text, by;
+  std::string text, by{};
 };
 
 // --- How it is looked at.
@@ -92,15 +95,15 @@ struct Compiled {
   int number = 0;
   std::shared_ptr<const Scene> scene;
 };
+struct Logged {        // one action of an answer's log
+  std::string action;  // as JSON
+  std::string line;    // in the language, where it iterates; empty for an edit
+};
 struct Iterated {  // progress of a run
   int number = 0;
   std::vector<IterationRecord> records;  // more than one where nobody looked meanwhile
   std::vector<Trajectory> changed;       // curves that differ; without knots where those are as before
   std::vector<std::pair<std::string, double>> parameters;
-};
-struct Logged {        // one action of an answer's log
-  std::string action;  // as JSON
-  std::string line;    // in the language, where it iterates; empty for an edit
 };
 struct Done {  // an action was performed
   int number = 0;
@@ -113,6 +116,7 @@ struct Reached {  // the answer to `motion/get`
   int number = 0;
   std::shared_ptr<const Motion> motion;
   std::shared_ptr<const std::string> checkpoint;
+  std::vector<Logged> log;  // iterations of the run that goes on, up to the checkpoint
 };
 struct Sampled {
   int number = 0;
@@ -152,15 +156,17 @@ struct SessionsFound {
   std::vector<LeftBehind> left;
 };
 struct Restored {  // entries with their texts alone in `scene`
+  std::string journal;
   std::string file, saved;
   std::vector<Entry> log;
   int present = 0;
   std::vector<std::string> script;
 };
 
-using Event = std::variant<Open, OpenText, Save, Act, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost, Ask,
-                           Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss,
-                           Tick, DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused,
-                           FileRead, FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored>;
+using Event =
+    std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost,
+                 Ask, Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick,
+                 DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused, FileRead,
+                 FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored>;
 
 }  // namespace spacetime::gui

@@ -61,6 +61,7 @@ struct Daemon {
   enum class Condition { starting, ready, lost } condition = Condition::starting;
   std::string why;   // it is not ready
   int restarts = 0;  // that were needed
+  bool met = false;  // it has been ready before
 };
 
 // A constant, key or slider that is being dragged: the motion follows, and one line is left of it.

@@ -23,9 +23,10 @@ struct Curves;
 struct Task {
   std::string line;
   Notice::Place place = Notice::Place::status;
-  std::string about;
+  std::string about{};
   bool scripted = false;  // taken from State::script
   bool merge = false;     // its entry becomes part of the one before it
+  bool iterates = false;  // known once it was compiled: has to wait for the end of a run
 };
 
 // What a request was for.
@@ -67,8 +68,9 @@ struct Work {
   std::vector<std::string> asked;       // its actions, as JSON
   std::vector<std::string> prelude;     // lines that iterate, which came before it
   int unanswered = 0;                   // of the job's requests
-  bool refused = false;                 // one of them
-  bool declared = false;                // problem/update is one of them
+  std::string refusal;                  // of one of them
+  bool changed = false;                 // one of them has been answered, or changes the problem
+  bool declares = false;                // the task changes the problem itself
   bool scripting = false;               // the script goes on when there is nothing else to do
   bool inexact = false;                 // the present scene's problem has places of a slightly different text
 
@@ -77,13 +79,15 @@ struct Work {
   std::string action;      // as asked, and
   std::string line;        // as written
   bool merge = false;      // its entry becomes part of the one before it
+  bool scripted = false;   // taken from State::script
   bool unseen = false;     // the person has gone elsewhere meanwhile
   bool discarded = false;  // nothing is to be left of it
 
   // Where the optimizer stands: number of an entry; 0: unknown.
   int at = 0;
-  int going = 0;   // where it is being led
-  int failed = 0;  // where it could not be led
+  int going = 0;          // where it is being led
+  int failed = 0;         // where it could not be led
+  bool restored = false;  // the present entry's text is still to be compiled
 
   // A drag.
   struct Drag {
@@ -93,8 +97,7 @@ struct Work {
     bool moved = false;  // the round that is under way has iterated
     int unanswered = 0;
     int run = 0;
-    std::optional<bool> keep;  // it is over
-    bool changed = false;      // anything was sent
+    bool begun = false;  // anything was sent
   };
   std::optional<Drag> drag;
 

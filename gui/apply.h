@@ -1,0 +1,100 @@
+// The parts of `update`: one `apply` an event, and what they share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "gui/effect.h"
+#include "gui/event.h"
+#include "gui/state.h"
+
+namespace spacetime::gui {
+
+// update_session.cpp: files, the log, undo.
+void apply(State& state, const Open& event, Effects& effects);
+void apply(State& state, const OpenText& event, Effects& effects);
+void apply(State& state, const Save& event, Effects& effects);
+void apply(State& state, const DropSession& event, Effects& effects);
+void apply(State& state, const Undo& event, Effects& effects);
+void apply(State& state, const Redo& event, Effects& effects);
+void apply(State& state, const GoTo& event, Effects& effects);
+void apply(State& state, const FileRead& event, Effects& effects);
+void apply(State& state, const FileFailed& event, Effects& effects);
+void apply(State& state, const FileWritten& event, Effects& effects);
+void apply(State& state, const FileChanged& event, Effects& effects);
+void apply(State& state, const SettingsRead& event, Effects& effects);
+void apply(State& state, const SessionsFound& event, Effects& effects);
+void apply(State& state, const Restored& event, Effects& effects);
+void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& effects);
+// Leads the optimizer to the present entry, or goes on with it once its text is compiled.
+void go(State& state, Effects& effects);
+void went(State& state, const Compiled& event, Effects& effects);
+
+// update_act.cpp: acts and the script.
+void apply(State& state, const Act& event, Effects& effects);
+void apply(State& state, const RunScript& event, Effects& effects);
+void begin_task(State& state, Effects& effects);
+void compiled_task(State& state, const Compiled& event, Effects& effects);
+void compiled_base(State& state, const Compiled& event);
+void performed(State& state, const Done& event, Effects& effects);  // a part of the task
+void refuse_task(State& state, const std::string& why, Effects& effects);
+void finish_task(State& state, Effects& effects);
+
+// update_run.cpp: runs, samples, the console; answers and where they belong.
+void apply(State& state, const Stop& event, Effects& effects);
+void apply(State& state, const Ask& event, Effects& effects);
+void apply(State& state, const Compiled& event, Effects& effects);
+void apply(State& state, const Iterated& event, Effects& effects);
+void apply(State& state, const Done& event, Effects& effects);
+void apply(State& state, const Reached& event, Effects& effects);
+void apply(State& state, const Sampled& event, Effects& effects);
+void apply(State& state, const Answered& event, Effects& effects);
+void apply(State& state, const Acknowledged& event, Effects& effects);
+void apply(State& state, const Refused& event, Effects& effects);
+void stop_run(State& state, Effects& effects);
+
+// update_drag.cpp.
+void apply(State& state, const Steer& event, Effects& effects);
+void apply(State& state, const Steered& event, Effects& effects);
+void advance_drag(State& state, Effects& effects);
+void leave_drag(State& state, Effects& effects);  // without a trace; the optimizer then stands nowhere
+
+// update_view.cpp: how it is looked at.
+void apply(State& state, const DropGhost& event, Effects& effects);
+void apply(State& state, const Play& event, Effects& effects);
+void apply(State& state, const SetPlayback& event, Effects& effects);
+void apply(State& state, const Select& event, Effects& effects);
+void apply(State& state, const SetPose& event, Effects& effects);
+void apply(State& state, const CopyPose& event, Effects& effects);
+void apply(State& state, const PastePose& event, Effects& effects);
+void apply(State& state, const KeyPose& event, Effects& effects);
+void apply(State& state, const Draft& event, Effects& effects);
+void apply(State& state, const SetTheme& event, Effects& effects);
+void apply(State& state, const Dismiss& event, Effects& effects);
+void apply(State& state, const Tick& event, Effects& effects);
+void apply(State& state, const DaemonIs& event, Effects& effects);
+
+// update.cpp: what they share.
+int ask(State& state, Effects& effects, Request request, Wanted wanted);
+void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted);
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, bool runs = false);
+void ask_checkpoint(State& state, Effects& effects, int entry);
+void forget(State& state, Wanted::Kind kind);                      // answers of this kind are nobody's any more
+std::string member(std::string_view name, std::string_view text);  // "name":"text", as JSON
+void notify(State& state, Notice notice);
+Entry* entry_of(State& state, int number);  // null where it is cut away
+bool ready(const State& state);             // there is a problem to act on
+
+// The log.
+std::string ready_for_more(std::string text);  // with a line's end, unless a statement can follow where it ends
+std::shared_ptr<const Scene> appended(const Scene& base, const std::string& added,
+                                      const std::vector<Statement>& statements, std::shared_ptr<const Problem> problem);
+Statement iterating_statement(const std::string& line);
+void cut_redo(State& state);
+// Appends (or merges into the last) and asks for its checkpoint; it becomes the present one where `seen`.
+void append(State& state, Entry entry, bool merge, bool seen, Effects& effects);
+void show(State& state, const Entry& entry);  // its motion, at once
+std::shared_ptr<const Curves> curves_of(const Motion& motion);
+
+}  // namespace spacetime::gui

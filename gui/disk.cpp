@@ -1,0 +1,236 @@
+#include "gui/disk.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "common/files.h"
+#include "gui/journal.h"
+#include "protocol/json.h"
+
+namespace spacetime::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds between_looks{1};  // at the watched file
+
+std::string settings_file(const std::string& folder) { return folder + "/settings.json"; }
+
+std::optional<std::pair<long, long>> changed(const std::string& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) return std::nullopt;
+  return std::pair<long, long>(status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+}
+
+// A journal held so that no other window takes it.
+class Held {
+ public:
+  explicit Held(const std::string& file) : file_(::open(file.c_str(), O_RDWR | O_CLOEXEC)) {
+    if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+    if (file_ >= 0) ::close(file_);
+    file_ = -1;
+  }
+  ~Held() {
+    if (file_ >= 0) ::close(file_);
+  }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+  explicit operator bool() const { return file_ >= 0; }
+
+ private:
+  int file_;
+};
+
+SettingsRead read_settings(const std::string& folder) {
+  SettingsRead settings;
+  const std::string file = settings_file(folder);
+  if (!fs::exists(file)) return settings;
+  const Json json = parse(read_text(file), "settings");
+  settings.dark = json.value("dark", true);
+  for (const auto& recent : json.value("recent", Json::array())) {
+    if (recent.is_string()) settings.recent.push_back(recent.get<std::string>());
+  }
+  return settings;
+}
+
+// Sessions that ended without being saved.  Journals of others, of which nothing is left to say, go.
+std::vector<LeftBehind> left_behind(const std::string& folder) {
+  std::vector<LeftBehind> left;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(journal_extension)) continue;
+    const Held held(file);
+    if (!held) continue;
+    bool wanted = false;
+    try {
+      const Restored restored = read_journal(read_text(file));
+      wanted = unsaved(restored);
+      if (wanted) left.push_back({file, restored.file});
+    } catch (const InputError&) {
+      wanted = false;  // not even its beginning was written
+    }
+    std::error_code error;
+    if (!wanted) fs::remove(entry.path(), error);
+  }
+  std::ranges::sort(left, {}, &LeftBehind::journal);
+  return left;
+}
+
+}  // namespace
+
+std::string state_folder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state) return std::string(state) + "/spacetime";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.local/state/spacetime";
+  return {};
+}
+
+Disk::Disk(std::string folder, std::function<void(Event)> post)
+    : folder_(std::move(folder)), post_(std::move(post)), thread_([this] { run(); }) {}
+
+Disk::~Disk() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  arrived_.notify_one();
+  thread_.join();
+  if (journal_ >= 0) ::close(journal_);
+}
+
+void Disk::perform(Effect effect) {
+  {
+    const std::lock_guard lock(mutex_);
+    queue_.push_back(std::move(effect));
+  }
+  arrived_.notify_one();
+}
+
+void Disk::run() {
+  begin();
+  std::unique_lock lock(mutex_);
+  while (true) {
+    arrived_.wait_for(lock, between_looks, [&] { return ending_ || !queue_.empty(); });
+    if (queue_.empty() && ending_) return;
+    if (queue_.empty()) {
+      lock.unlock();
+      look_at_watched();
+      lock.lock();
+      continue;
+    }
+    const Effect effect = std::move(queue_.front());
+    queue_.pop_front();
+    lock.unlock();
+    std::visit([&](const auto& which) { act(which); }, effect);
+    lock.lock();
+  }
+}
+
+void Disk::begin() {
+  if (folder_.empty()) return;
+  try {
+    fs::create_directories(folder_);
+    post_(read_settings(folder_));
+    post_(SessionsFound{left_behind(folder_)});
+  } catch (const std::exception& error) {
+    // Without settings and journals one can still work.
+    post_(FileFailed{folder_, "What is kept between sessions cannot be read: " + std::string(error.what())});
+  }
+}
+
+void Disk::look_at_watched() {
+  if (watched_.empty()) return;
+  const auto now = changed(watched_);
+  if (!now || now == stamp_) return;
+  stamp_ = now;
+  post_(FileChanged{watched_});
+}
+
+void Disk::act(const ReadFile& effect) {
+  try {
+    if (!effect.file.ends_with(journal_extension)) return post_(FileRead{effect.file, read_text(effect.file)});
+    const Held held(effect.file);
+    if (!held) throw InputError("'" + effect.file + "' cannot be opened, or another window has it");
+    Restored restored = read_journal(read_text(effect.file));
+    restored.journal = effect.file;
+    post_(std::move(restored));
+  } catch (const InputError& error) {
+    post_(FileFailed{effect.file, error.what()});
+  }
+}
+
+void Disk::act(const WriteFile& effect) {
+  try {
+    write_text(effect.file, effect.text);
+    if (effect.file == watched_) stamp_ = changed(watched_);
+    post_(FileWritten{effect.file, effect.text});
+  } catch (const std::exception& error) {
+    post_(FileFailed{effect.file, error.what()});
+  }
+}
+
+void Disk::act(const WatchFile& effect) {
+  if (watched_ == effect.file) return;
+  watched_ = effect.file;
+  stamp_ = watched_.empty() ? std::nullopt : changed(watched_);
+}
+
+void Disk::act(const JournalBegin&) {
+  act(JournalEnd{true});
+  if (folder_.empty()) return;
+  // One's own, whatever sessions there were before.
+  do {
+    journal_file_ =
+        folder_ + "/" + std::to_string(::getpid()) + "-" + std::to_string(++journals_) + std::string(journal_extension);
+    journal_ = ::open(journal_file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0600);
+  } while (journal_ < 0 && errno == EEXIST);
+  if (journal_ >= 0) ::flock(journal_, LOCK_EX | LOCK_NB);
+}
+
+void Disk::act(const JournalLine& effect) {
+  if (journal_ < 0) return;
+  const std::string line = effect.json + "\n";
+  std::size_t done = 0;
+  while (done < line.size()) {
+    const auto wrote = ::write(journal_, line.data() + done, line.size() - done);
+    if (wrote < 0 && errno == EINTR) continue;
+    if (wrote <= 0) break;
+    done += static_cast<std::size_t>(wrote);
+  }
+  if (done == line.size() && ::fdatasync(journal_) == 0) return;
+  // Half a line would end what can be read: the journal ends here.
+  ::close(journal_);
+  journal_ = -1;
+  post_(FileFailed{journal_file_, "The journal of this session cannot be written: save often."});
+}
+
+void Disk::act(const JournalEnd& effect) {
+  if (journal_ < 0) return;
+  if (!effect.keep) ::unlink(journal_file_.c_str());
+  ::close(journal_);
+  journal_ = -1;
+}
+
+void Disk::act(const JournalDrop& effect) {
+  const Held held(effect.journal);
+  if (held && effect.journal.ends_with(journal_extension)) ::unlink(effect.journal.c_str());
+}
+
+void Disk::act(const KeepSettings& effect) {
+  if (folder_.empty()) return;
+  try {
+    Json json{{"dark", effect.dark}, {"recent", effect.recent}};
+    write_text(settings_file(folder_), json.dump(2) + "\n");
+  } catch (const std::exception& error) {
+    post_(FileFailed{folder_, "Settings cannot be kept: " + std::string(error.what())});
+  }
+}
+
+}  // namespace spacetime::gui

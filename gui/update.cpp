@@ -1,0 +1,228 @@
+#include "gui/update.h"
+
+#include <algorithm>
+
+#include "gui/apply.h"
+#include "gui/journal.h"
+#include "protocol/writer.h"
+
+namespace spacetime::gui {
+namespace {
+
+// How often samples are refreshed while the motion changes, s, and how many there are.
+constexpr double sample_pause = 0.2;
+constexpr int sample_count = 201;
+
+void sample(State& state, Effects& effects) {
+  Work& work = state.work;
+  const bool there = work.run || (work.drag && work.drag->begun) || work.at == state.log[state.present].number;
+  if (work.sample || !state.curves || work.sampled == state.revision || !there || work.going) return;
+  if (state.clock < work.next_time || state.optimizer.condition != Daemon::Condition::ready) return;
+  const Problem& problem = *state.scene->problem;
+  Writer times(false);
+  times.list([&] {
+    for (int i = 0; i + 1 < sample_count; ++i) {
+      times.number(problem.start + (problem.end - problem.start) * i / (sample_count - 1));
+    }
+    times.number(problem.end);
+  });
+  Request request;
+  request.method = "sample";
+  request.params = "\"times\":" + times.take();
+  request.answer = Request::Answer::sampled;
+  work.sample = ask(state, effects, std::move(request), {Wanted::Kind::sample, 0});
+  work.sampled = state.revision;
+  work.next_time = state.clock + sample_pause;
+}
+
+// What is next, when nothing is under way.
+void advance(State& state, Effects& effects) {
+  Work& work = state.work;
+  if (work.opening || work.task || work.going) return;
+  if (!ready(state)) {
+    if (!work.tasks.empty()) {
+      const Task task = work.tasks.front();
+      work.tasks.clear();
+      notify(state, {task.place, Severity::error, "The scene has mistakes: mend them first.", task.about, 0});
+    }
+    return;
+  }
+  const int present = state.log[state.present].number;
+  if (work.run && (work.unseen || work.discarded)) return;
+  if (!work.run && work.at != present && !(work.drag && work.drag->begun)) {
+    if (work.failed != present) return go(state, effects);
+    if (!work.tasks.empty()) {
+      work.tasks.clear();
+      notify(state, {Notice::Place::status, Severity::error,
+                     "The optimizer is not where the session is: save it and open it again.", "", 0});
+    }
+    return;
+  }
+  if (work.tasks.empty() && work.scripting && !work.run && !work.drag) {
+    if (state.script.empty()) {
+      work.scripting = false;
+    } else {
+      work.tasks.push_back({state.script.front(), Notice::Place::status, "", true, false, false});
+    }
+  }
+  if (!work.tasks.empty() && !(work.drag && work.drag->begun)) {
+    if (!(work.tasks.front().iterates && work.run)) begin_task(state, effects);
+  } else if (work.drag) {
+    advance_drag(state, effects);
+  }
+  if (!work.task) sample(state, effects);
+}
+
+}  // namespace
+
+Effects update(State& state, const Event& event) {
+  Effects effects;
+  std::visit([&](const auto& which) { apply(state, which, effects); }, event);
+  advance(state, effects);
+  state.waiting = static_cast<int>(state.work.tasks.size()) + (state.work.task ? 1 : 0);
+  return effects;
+}
+
+int ask(State& state, Effects& effects, Request request, Wanted wanted) {
+  const int number = ++state.work.last;
+  state.work.wanted[number] = wanted;
+  request.number = number;
+  effects.push_back(std::move(request));
+  return number;
+}
+
+void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted) {
+  Request request;
+  request.symbolic = true;
+  request.method = "scene/compile";
+  request.params = member("text", text);
+  request.answer = Request::Answer::scene;
+  request.text = std::move(text);
+  ask(state, effects, std::move(request), wanted);
+}
+
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, bool runs) {
+  Request request;
+  request.method = "action/do";
+  request.params = "\"action\":" + action;
+  request.answer = runs ? Request::Answer::run : Request::Answer::done;
+  return ask(state, effects, std::move(request), wanted);
+}
+
+void ask_checkpoint(State& state, Effects& effects, int entry) {
+  Request request;
+  request.method = "motion/get";
+  request.params = "\"checkpoint\":true";
+  request.answer = Request::Answer::checkpoint;
+  ask(state, effects, std::move(request), {Wanted::Kind::checkpoint, entry});
+}
+
+void forget(State& state, Wanted::Kind kind) {
+  std::erase_if(state.work.wanted, [&](const auto& wanted) { return wanted.second.kind == kind; });
+}
+
+std::string member(std::string_view name, std::string_view text) {
+  Writer to(false);
+  to.string(name);
+  Writer value(false);
+  value.string(text);
+  return to.take() + ":" + value.take();
+}
+
+void notify(State& state, Notice notice) {
+  std::erase_if(state.notices, [&](const Notice& one) { return one.place == notice.place && one.text == notice.text; });
+  constexpr std::size_t most = 20;
+  if (state.notices.size() >= most) state.notices.erase(state.notices.begin());
+  state.notices.push_back(std::move(notice));
+}
+
+Entry* entry_of(State& state, int number) {
+  const auto found = std::ranges::find(state.log, number, &Entry::number);
+  return found == state.log.end() ? nullptr : &*found;
+}
+
+bool ready(const State& state) {
+  return state.present >= 0 && state.present < static_cast<int>(state.log.size()) && state.scene &&
+         (state.scene->problem || state.work.restored);
+}
+
+std::string ready_for_more(std::string text) {
+  const auto last = text.find_last_not_of(" \t");
+  if (last == std::string::npos || text[last] == '\n') return text;
+  const auto line = text.rfind('\n') + 1;
+  const bool separated = text[last] == ';' && text.find('#', line) == std::string::npos;
+  return separated ? text : text + "\n";
+}
+
+std::shared_ptr<const Scene> appended(const Scene& base, const std::string& added,
+                                      const std::vector<Statement>& statements,
+                                      std::shared_ptr<const Problem> problem) {
+  auto scene = std::make_shared<Scene>(base);
+  scene->text = ready_for_more(std::move(scene->text));
+  const auto begin = scene->text.size();
+  const auto lines = static_cast<int>(std::ranges::count(scene->text, '\n'));
+  scene->text += added;
+  if (problem) scene->problem = std::move(problem);
+  for (Statement statement : statements) {
+    statement.line += lines;
+    statement.begin += begin;
+    statement.end += begin;
+    scene->outline.push_back(std::move(statement));
+  }
+  return scene;
+}
+
+Statement iterating_statement(const std::string& line) {
+  Statement statement;
+  statement.word = line.substr(0, line.find_first_of(" \t\n"));
+  statement.text = line;
+  statement.line = statement.column = 1;
+  statement.action = true;
+  statement.end = line.size();
+  return statement;
+}
+
+void cut_redo(State& state) { state.log.resize(static_cast<std::size_t>(state.present + 1)); }
+
+void append(State& state, Entry entry, bool merge, bool seen, Effects& effects) {
+  Work& work = state.work;
+  if (merge && state.log.size() > 1) {
+    Entry& into = state.log.back();
+    entry.text = into.text + "\n" + entry.text;
+    entry.actions.insert(entry.actions.begin(), into.actions.begin(), into.actions.end());
+    entry.iterated = entry.iterated || into.iterated;
+    if (seen) state.present = static_cast<int>(state.log.size()) - 2;
+    state.log.pop_back();
+  }
+  entry.number = ++work.entries;
+  effects.push_back(JournalLine{journal_entry(entry, *state.log.back().scene, state.log.size(), state.script.size())});
+  state.log.push_back(std::move(entry));
+  const Entry& last = state.log.back();
+  work.at = last.number;
+  if (seen) {
+    state.present = static_cast<int>(state.log.size()) - 1;
+    state.scene = last.scene;
+  } else {
+    effects.push_back(JournalLine{journal_present(state.present)});
+  }
+  ask_checkpoint(state, effects, last.number);
+}
+
+std::shared_ptr<const Curves> curves_of(const Motion& motion) {
+  return std::make_shared<Curves>(Curves{motion.dofs, motion.constants, motion.parameters});
+}
+
+void show(State& state, const Entry& entry) {
+  state.scene = entry.scene;
+  state.work.restored = !entry.scene->problem;
+  state.ghost = nullptr;
+  state.pose.reset();
+  state.motion = entry.motion;
+  if (!entry.motion) return;
+  state.curves = curves_of(*entry.motion);
+  ++state.revision;
+  const int iterations = entry.motion->iterations;
+  std::erase_if(state.record, [&](const IterationRecord& record) { return record.iteration > iterations; });
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,237 @@
+// Acts: lines of the scene language, performed one after another.  A line is compiled as the end of the present text;
+// then its actions are sent, and when all are answered the line is part of the text.
+#include <algorithm>
+
+#include "gui/apply.h"
+#include "gui/words.h"
+
+namespace spacetime::gui {
+namespace {
+
+using Kind = Wanted::Kind;
+using Place = Notice::Place;
+
+// Acts that wait; somebody who asks for more asks a daemon that does not answer.
+constexpr std::size_t most_tasks = 64;
+
+// Whether two problems are the same but for their actions.
+bool same_but_for_actions(const Problem& a, const Problem& b) {
+  return a.start == b.start && a.end == b.end && a.constants == b.constants && a.parameters == b.parameters &&
+         a.dofs == b.dofs && a.programs == b.programs && a.functionals == b.functionals &&
+         a.constraints == b.constraints && a.objective == b.objective && a.keyframes == b.keyframes &&
+         a.plots == b.plots && a.bodies == b.bodies;
+}
+
+std::ptrdiff_t actions_of(const Scene& scene) { return std::ranges::count_if(scene.outline, &Statement::action); }
+
+bool iterates(const Statement& statement) { return statement.word == "solve" || statement.word == "iterate"; }
+
+std::string with_line_end(std::string text) {
+  if (text.empty() || text.back() != '\n') text += '\n';
+  return text;
+}
+
+// What is wrong with the act, its lines counted from its own first; what is wrong elsewhere comes second.
+std::string mistakes(const Scene& compiled, int lines_before) {
+  std::string sentences;
+  for (const Diagnostic& diagnostic : compiled.diagnostics) {
+    if (!sentences.empty()) sentences += "\n";
+    const int line = diagnostic.span.line - lines_before;
+    if (line > 1) sentences += "line " + std::to_string(line) + ": ";
+    sentences += diagnostic.message;
+  }
+  return sentences;
+}
+
+void end_task(State& state) {
+  state.work.task.reset();
+  state.work.acting = nullptr;
+  state.work.asked.clear();
+  state.work.prelude.clear();
+  state.work.unanswered = 0;
+  state.work.refusal.clear();
+  state.work.changed = false;
+}
+
+// A scripted line is no part of the script any more once it is in the text.
+void take_from_script(State& state, const Task& task) {
+  if (task.scripted && !state.script.empty()) state.script.erase(state.script.begin());
+}
+
+// The statements that the act adds, with their places in its own text.
+std::vector<Statement> added_statements(const Scene& base, const Scene& compiled, std::size_t begin, int lines) {
+  std::vector<Statement> added(compiled.outline.begin() + static_cast<std::ptrdiff_t>(base.outline.size()),
+                               compiled.outline.end());
+  for (Statement& statement : added) {
+    statement.begin -= begin;
+    statement.end -= begin;
+    statement.line -= lines;
+  }
+  return added;
+}
+
+}  // namespace
+
+void apply(State& state, const Act& event, Effects&) {
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0; });
+  Work& work = state.work;
+  if (work.tasks.size() >= most_tasks) {
+    notify(state,
+           {event.place, Severity::error, "So many acts wait already that this one was dropped.", event.about, 0});
+    return;
+  }
+  work.tasks.push_back({event.line, event.place, event.about});
+}
+
+void apply(State& state, const RunScript&, Effects&) {
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0; });
+  Work& work = state.work;
+  if (!state.script.empty()) {
+    work.scripting = true;
+  } else if (!work.run && work.tasks.empty()) {
+    work.tasks.push_back({"solve", Place::optimisation, ""});
+  }
+}
+
+void begin_task(State& state, Effects& effects) {
+  Work& work = state.work;
+  work.task = std::move(work.tasks.front());
+  work.tasks.pop_front();
+  if (!work.task->scripted) work.task->line = with_line_end(std::move(work.task->line));
+  ask_compile(state, effects, ready_for_more(state.scene->text) + work.task->line, {Kind::act_compile, 0});
+}
+
+void compiled_base(State& state, const Compiled& event) {
+  Work& work = state.work;
+  Entry& entry = state.log[state.present];
+  if (event.scene->problem) entry.scene = state.scene = event.scene;
+  work.inexact = false;
+  work.tasks.push_front(std::move(*work.task));
+  end_task(state);
+}
+
+void compiled_task(State& state, const Compiled& event, Effects& effects) {
+  Work& work = state.work;
+  const Scene &base = *state.scene, &compiled = *event.scene;
+  const Task task = *work.task;
+  const std::size_t begin = compiled.text.size() - task.line.size();
+  const auto lines = static_cast<int>(std::count(compiled.text.begin(), compiled.text.begin() + begin, '\n'));
+  if (!compiled.problem) return refuse_task(state, mistakes(compiled, lines), effects);
+  const auto statements = added_statements(base, compiled, begin, lines);
+  if (statements.empty()) return refuse_task(state, "There is no statement in this line.", effects);
+  const bool runs = std::ranges::any_of(statements, iterates);
+  if (runs && statements.size() > 1) {  // each has its turn
+    end_task(state);
+    for (std::size_t i = statements.size(); i-- > 0;) {
+      const std::size_t end = i + 1 < statements.size() ? statements[i + 1].begin : task.line.size();
+      Task part = task;
+      part.line = task.line.substr(statements[i].begin, end - statements[i].begin);
+      part.merge = part.merge && i == 0;
+      work.tasks.push_front(part);
+    }
+    if (task.scripted) {  // the script has them one by one, too
+      state.script.erase(state.script.begin());
+      for (std::size_t i = statements.size(); i-- > 0;) state.script.insert(state.script.begin(), work.tasks[i].line);
+    }
+    return;
+  }
+  if (runs && work.run) {
+    work.tasks.push_front(task);
+    work.tasks.front().iterates = true;
+    return end_task(state);
+  }
+  const bool declares = !same_but_for_actions(*base.problem, *compiled.problem);
+  work.declares = declares;
+  if (declares && work.inexact) return ask_compile(state, effects, base.text, {Kind::base, 0});
+
+  work.acting = event.scene;
+  if (!work.run) cut_redo(state);
+  if (declares) {
+    Request request;
+    request.method = "problem/update";
+    request.problem = compiled.problem;
+    request.answer = Request::Answer::done;
+    ask(state, effects, std::move(request), {Kind::act_do, 0});
+    ++work.unanswered;
+    work.changed = true;
+  }
+  const auto& actions = compiled.problem->actions;
+  for (auto i = static_cast<std::size_t>(actions_of(base)); i < actions.size(); ++i) {
+    const std::string action = json_of(actions[i].action);
+    if (runs) {
+      work.run = ask_action(state, effects, action, {Kind::run, 0}, true);
+      work.action = action;
+      work.line = task.line;
+      work.merge = task.merge;
+      work.scripted = task.scripted;
+      state.running = true;
+      state.stopping = false;
+      state.ghost = state.ghost ? state.ghost : state.curves;
+      return end_task(state);
+    }
+    work.asked.push_back(action);
+    ask_action(state, effects, action, {Kind::act_do, 0});
+    ++work.unanswered;
+  }
+  if (work.unanswered == 0) finish_task(state, effects);
+}
+
+void performed(State& state, const Done& event, Effects& effects) {
+  Work& work = state.work;
+  for (const Logged& logged : event.log) {
+    if (!logged.line.empty()) work.prelude.push_back(logged.line);
+  }
+  work.changed = true;
+  if (--work.unanswered > 0) return;
+  work.refusal.empty() ? finish_task(state, effects) : refuse_task(state, work.refusal, effects);
+}
+
+void refuse_task(State& state, const std::string& why, Effects& effects) {
+  Work& work = state.work;
+  const Task task = *work.task;
+  notify(state, {task.place, Severity::error, why, task.about, 0});
+  work.scripting = false;
+  if (task.merge || (!work.tasks.empty() && work.tasks.front().merge)) work.tasks.clear();
+  if (work.changed) {  // in part: back to where the present entry is
+    work.at = 0;
+    if (work.run) {
+      work.discarded = true;
+      stop_run(state, effects);
+    }
+  }
+  end_task(state);
+}
+
+void finish_task(State& state, Effects& effects) {
+  Work& work = state.work;
+  const Task task = *work.task;
+  const std::shared_ptr<const Scene> base = state.scene, compiled = work.acting;
+  const std::size_t begin = compiled->text.size() - task.line.size();
+  const auto lines = static_cast<int>(std::count(compiled->text.begin(), compiled->text.begin() + begin, '\n'));
+  auto statements = added_statements(*base, *compiled, begin, lines);
+  auto scene = base;
+  Entry entry;
+  for (const std::string& line : work.prelude) {
+    scene = appended(*scene, line + "\n", {iterating_statement(line)}, nullptr);
+    entry.text += line + "\n";
+  }
+  scene = appended(*scene, task.line, statements, work.declares ? compiled->problem : nullptr);
+  entry.text += trimmed(task.line);
+  entry.actions = work.asked;
+  entry.iterated = !work.prelude.empty();
+  entry.scene = std::move(scene);
+  // Its places are those of a text without the lines of the prelude.
+  work.inexact = work.inexact || (work.declares && entry.iterated);
+  if (!task.about.empty() || task.place == Place::equations) state.drafts.erase(task.about);
+  take_from_script(state, task);
+  if (!work.run) state.ghost = state.curves;
+  end_task(state);
+  append(state, std::move(entry), task.merge, true, effects);
+  if (!work.run) return;
+  Request look;  // what a set constant is worth
+  look.method = "motion/get";
+  look.answer = Request::Answer::reached;
+  ask(state, effects, std::move(look), {Kind::look, 0});
+}
+
+}  // namespace spacetime::gui

@@ -1,0 +1,287 @@
+// Files, the log, and going to and fro in it.
+#include <algorithm>
+#include <utility>
+
+#include "gui/apply.h"
+#include "gui/journal.h"
+
+namespace spacetime::gui {
+namespace {
+
+using Kind = Wanted::Kind;
+using Place = Notice::Place;
+
+constexpr std::size_t most_recent = 12;
+
+// Nothing of the session before is left but how it is looked at.
+void begin(State& state, std::string file, std::string saved, Effects& effects) {
+  if (!state.log.empty()) effects.push_back(JournalEnd{unsaved(state)});
+  if (state.work.run) effects.push_back(Cancel{state.work.run});
+  if (state.work.drag && state.work.drag->run) effects.push_back(Cancel{state.work.drag->run});
+  State next;
+  next.file = std::move(file);
+  next.saved = std::move(saved);
+  next.symbolic = state.symbolic;
+  next.optimizer = state.optimizer;
+  next.recent = std::move(state.recent);
+  next.left = std::move(state.left);
+  next.clock = state.clock;
+  next.dark = state.dark;
+  next.playback = state.playback;
+  next.playback.time = 0;
+  next.playback.playing = false;
+  next.revision = state.revision + 1;
+  next.work.last = state.work.last;
+  next.work.entries = state.work.entries;
+  state = std::move(next);
+  effects.push_back(WatchFile{state.file});
+}
+
+void open_text(State& state, std::string file, std::string text, Effects& effects) {
+  begin(state, file, file.empty() ? std::string() : text, effects);
+  state.work.opening = text;
+  ask_compile(state, effects, std::move(text), {Kind::open_whole, 0});
+}
+
+void remember(State& state, const std::string& file, Effects& effects) {
+  std::erase(state.recent, file);
+  state.recent.insert(state.recent.begin(), file);
+  if (state.recent.size() > most_recent) state.recent.resize(most_recent);
+  effects.push_back(KeepSettings{state.dark, state.recent});
+}
+
+// Where an action's line begins: the spaces before it belong to it.
+std::size_t line_begin(const std::string& text, std::size_t begin) {
+  const std::size_t end = begin == 0 ? std::string::npos : text.find_last_not_of(" \t", begin - 1);
+  if (end == std::string::npos) return 0;
+  return text[end] == '\n' ? end + 1 : begin;
+}
+
+// The text up to its first action, and what follows it, statement by statement: together they are the text.
+std::pair<std::string, std::vector<std::string>> split(const Scene& scene) {
+  std::vector<std::size_t> cuts;
+  for (const Statement& statement : scene.outline) {
+    if (cuts.empty() && !statement.action) continue;
+    cuts.push_back(line_begin(scene.text, statement.begin));
+  }
+  if (cuts.empty()) return {scene.text, {}};
+  std::vector<std::string> script;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const std::size_t end = i + 1 < cuts.size() ? cuts[i + 1] : scene.text.size();
+    script.push_back(scene.text.substr(cuts[i], end - cuts[i]));
+  }
+  return {scene.text.substr(0, cuts.front()), script};
+}
+
+void load(State& state, Effects& effects, std::shared_ptr<const Problem> problem, Wanted wanted) {
+  Request request;
+  request.method = "problem/load";
+  request.problem = std::move(problem);
+  ask(state, effects, std::move(request), wanted);
+}
+
+void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effects) {
+  Work& work = state.work;
+  work.opening.reset();
+  state.scene = scene;
+  Entry entry;
+  entry.text = scene->text;
+  entry.scene = scene;
+  entry.number = ++work.entries;
+  state.log = {entry};
+  state.present = 0;
+  if (!scene->problem) return;
+  state.script = std::move(work.script);
+  state.playback.time = scene->problem->start;
+  load(state, effects, scene->problem, {Kind::open_load, entry.number});
+  work.at = entry.number;
+  ask_checkpoint(state, effects, entry.number);
+  effects.push_back(JournalBegin{});
+  effects.push_back(JournalLine{journal_begin(state)});
+}
+
+}  // namespace
+
+void apply(State&, const Open& event, Effects& effects) { effects.push_back(ReadFile{event.file}); }
+
+void apply(State& state, const OpenText& event, Effects& effects) { open_text(state, "", event.text, effects); }
+
+void apply(State& state, const FileRead& event, Effects& effects) {
+  open_text(state, event.file, event.text, effects);
+  remember(state, event.file, effects);
+}
+
+void apply(State& state, const FileFailed& event, Effects&) {
+  notify(state, {Place::status, Severity::error, event.message, event.file, 0});
+}
+
+// A scene with mistakes, or one in which nothing was done, follows its file.
+void apply(State& state, const FileChanged& event, Effects& effects) {
+  if (event.file != state.file) return;
+  if (state.log.size() <= 1 && !state.work.run && !unsaved(state)) {
+    effects.push_back(ReadFile{event.file});
+  } else {
+    notify(state, {Place::status, Severity::warning,
+                   "The file was changed by another program: open it again to see it.", event.file, 0});
+  }
+}
+
+void apply(State& state, const Save& event, Effects& effects) {
+  const std::string file = event.file.empty() ? state.file : event.file;
+  if (!state.scene) return;
+  if (file.empty()) {
+    notify(state, {Place::status, Severity::error, "The scene has no file yet: give it a name.", "", 0});
+    return;
+  }
+  effects.push_back(WriteFile{file, text_to_save(state)});
+}
+
+void apply(State& state, const FileWritten& event, Effects& effects) {
+  state.file = event.file;
+  state.saved = event.text;
+  effects.push_back(JournalLine{journal_saved(state)});
+  effects.push_back(WatchFile{event.file});
+  remember(state, event.file, effects);
+}
+
+void apply(State& state, const SettingsRead& event, Effects&) {
+  state.dark = event.dark;
+  state.recent = event.recent;
+}
+
+void apply(State& state, const SessionsFound& event, Effects&) { state.left = event.left; }
+
+void apply(State& state, const Restored& event, Effects& effects) {
+  begin(state, event.file, event.saved, effects);
+  std::erase_if(state.left, [&](const LeftBehind& one) { return one.journal == event.journal; });
+  Work& work = state.work;
+  state.log = event.log;
+  state.script = event.script;
+  for (Entry& entry : state.log) entry.number = ++work.entries;
+  state.present = event.present;
+  show(state, state.log[state.present]);
+  // It goes on in a journal of its own.
+  effects.push_back(JournalBegin{});
+  effects.push_back(JournalLine{journal_begin(state)});
+  for (std::size_t i = 0; i < state.log.size(); ++i) {
+    const Entry& entry = state.log[i];
+    if (i > 0) effects.push_back(JournalLine{journal_entry(entry, *state.log[i - 1].scene, i, state.script.size())});
+    if (entry.checkpoint) effects.push_back(JournalLine{journal_checkpoint(entry)});
+  }
+  effects.push_back(JournalLine{journal_present(state.present)});
+  effects.push_back(JournalDrop{event.journal});
+}
+
+void apply(State& state, const DropSession& event, Effects& effects) {
+  std::erase_if(state.left, [&](const LeftBehind& one) { return one.journal == event.journal; });
+  effects.push_back(JournalDrop{event.journal});
+}
+
+void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& effects) {
+  Work& work = state.work;
+  if (wanted.kind == Kind::open_head || !event.scene->problem) return begin_log(state, event.scene, effects);
+  auto [head, script] = split(*event.scene);
+  if (script.empty()) return begin_log(state, event.scene, effects);
+  state.scene = event.scene;  // to be looked at meanwhile
+  work.script = std::move(script);
+  ask_compile(state, effects, std::move(head), {Kind::open_head, 0});
+}
+
+void go(State& state, Effects& effects) {
+  Work& work = state.work;
+  const Entry& entry = state.log[state.present];
+  if (!entry.checkpoint && state.present > 0) {
+    // It could not be asked for; the nearest one before it can be come back to.
+    for (int i = state.present - 1; i >= 0; --i) {
+      if (state.log[i].checkpoint) return apply(state, GoTo{i}, effects);
+    }
+  }
+  work.going = entry.number;
+  if (!entry.scene->problem) return ask_compile(state, effects, entry.scene->text, {Kind::go_compile, entry.number});
+  load(state, effects, entry.scene->problem, {Kind::go, entry.number});
+  work.unanswered = 1;
+  if (!entry.checkpoint) return ask_checkpoint(state, effects, entry.number);
+  if (entry.checkpoint->find("\"checkpoint\":{") == std::string::npos) {
+    for (int i = 0; i <= state.present; ++i) {
+      for (const std::string& action : state.log[i].actions) {
+        ask_action(state, effects, action, {Kind::go, entry.number});
+        ++work.unanswered;
+      }
+    }
+  }
+  Request request;
+  request.method = "motion/set";
+  request.params = "\"motion\":" + *entry.checkpoint;
+  request.answer = Request::Answer::acknowledged;
+  ask(state, effects, std::move(request), {Kind::go, entry.number});
+  ++work.unanswered;
+}
+
+void went(State& state, const Compiled& event, Effects& effects) {
+  Work& work = state.work;
+  Entry* entry = entry_of(state, std::exchange(work.going, 0));
+  if (!entry) return;
+  entry->scene = event.scene;
+  const bool present = entry == &state.log[state.present];
+  if (present) state.scene = event.scene;
+  if (!event.scene->problem) {
+    work.failed = entry->number;
+  } else if (present) {
+    work.restored = false;
+    go(state, effects);
+  }
+}
+
+void apply(State& state, const GoTo& event, Effects& effects) {
+  if (event.entry < 0 || event.entry >= static_cast<int>(state.log.size())) return;
+  if (!state.log[event.entry].checkpoint) return;
+  Work& work = state.work;
+  work.tasks.clear();
+  work.scripting = false;
+  work.failed = 0;
+  if (work.task) {
+    if (work.unanswered > 0) {  // part of it may have been done
+      work.at = 0;
+      work.discarded = work.run != 0;
+      forget(state, Kind::act_do);
+    }
+    forget(state, Kind::act_compile);
+    forget(state, Kind::base);
+    work.task.reset();
+  }
+  if (work.drag) leave_drag(state, effects);
+  if (work.going) {
+    forget(state, Kind::go);
+    forget(state, Kind::go_compile);
+    work.at = work.going = 0;
+  }
+  if (work.run) {
+    work.unseen = true;
+    stop_run(state, effects);
+  }
+  forget(state, Kind::look);
+  forget(state, Kind::sample);
+  work.sample = 0;
+  work.sampled = -1;
+  work.next_time = 0;
+  state.present = event.entry;
+  show(state, state.log[event.entry]);
+  effects.push_back(JournalLine{journal_present(event.entry)});
+}
+
+void apply(State& state, const Undo&, Effects& effects) {
+  if (!can_undo(state)) return;
+  int entry = state.present;
+  if (!state.running || state.work.unseen) --entry;
+  while (entry >= 0 && !state.log[entry].checkpoint) --entry;
+  apply(state, GoTo{entry}, effects);
+}
+
+void apply(State& state, const Redo&, Effects& effects) {
+  if (!can_redo(state)) return;
+  int entry = state.present + 1;
+  while (!state.log[entry].checkpoint) ++entry;
+  apply(state, GoTo{entry}, effects);
+}
+
+}  // namespace spacetime::gui
