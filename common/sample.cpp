@@ -25,8 +25,8 @@ std::vector<std::vector<double>> table(const Rows& rows, std::span<const int> ou
 
 }  // namespace
 
-Rows along(const Program& program, const Evaluator& evaluator, const Motion& motion, std::span<const double> functionals,
-           std::span<const double> times) {
+Rows along(const Program& program, const Evaluator& evaluator, const Motion& motion,
+           std::span<const double> functionals, std::span<const double> times) {
   std::vector<std::vector<double>> inputs;
   std::vector<const double*> pointers;
   std::vector<std::uint8_t> uniform;
@@ -86,6 +86,18 @@ std::vector<double> frame_times(double start, double end, double rate) {
   for (long k = 0; k <= frames; ++k) times.push_back(std::min(end, start + static_cast<double>(k) / rate));
   if (times.back() < end) times.push_back(end);
   return times;
+}
+
+std::vector<double> between(const Samples& samples, const std::vector<std::vector<double>>& rows, double time) {
+  const auto after = std::ranges::lower_bound(samples.times, time);
+  if (after == samples.times.end()) return rows.back();
+  const auto i = static_cast<std::size_t>(after - samples.times.begin());
+  if (i == 0) return rows.front();
+  const double share = (time - samples.times[i - 1]) / (samples.times[i] - samples.times[i - 1]);
+  std::vector<double> row;
+  for (std::size_t k = 0; k < rows[i].size(); ++k)
+    row.push_back(rows[i - 1][k] + share * (rows[i][k] - rows[i - 1][k]));
+  return row;
 }
 
 }  // namespace spacetime

@@ -15,6 +15,7 @@
 #include "common/diagnostic.h"
 #include "common/files.h"
 #include "common/sample.h"
+#include "gui/render/chart.h"
 #include "gui/render/compose.h"
 #include "gui/render/film.h"
 #include "gui/render/offscreen.h"
@@ -31,11 +32,11 @@ constexpr int samples_a_pixel = 4;
 constexpr int most_frames = 100000;  // an hour at 28 a second; more is a slip of the pen
 
 struct Options {
-  std::string motion, output, problem, size = "1280x720", view, theme = "light";
+  std::string motion, output, problem, size, view, theme = "light";
   double rate = 30;
   int strip = 0;
   std::optional<double> at;
-  std::vector<std::string> trails;
+  std::vector<std::string> trails, curves;
 };
 
 volatile std::sig_atomic_t interrupts = 0;
@@ -45,8 +46,8 @@ struct Size {
   int width = 0, height = 0;
 };
 
-Size size_of(const std::string& text) {
-  Size size;
+Size size_of(const std::string& text, Size size) {
+  if (text.empty()) return size;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%c", &size.width, &size.height, &rest) != 2 || size.width < 16 ||
       size.height < 16) {
@@ -54,6 +55,10 @@ Size size_of(const std::string& text) {
   }
   return size;
 }
+
+constexpr Size usual_size{1280, 720};
+constexpr int chart_width = 1000, panel_height = 240, chart_margins = 70;  // pixels, where no size is asked for
+constexpr int chart_times = 1000;                                          // more than a curve has pixels
 
 std::optional<View> view_of(const std::string& name) {
   if (name == "front") return View::front;
@@ -71,11 +76,13 @@ void make_folder_of(const std::string& file) {
   if (failed) throw InputError("the folder '" + folder.string() + "' cannot be made: " + failed.message());
 }
 
+Theme theme_of(const Options& options) { return options.theme == "dark" ? Theme::dark : Theme::light; }
+
 // Everything that pictures of one motion share.
 class Studio {
  public:
   Studio(const Figures& figures, const Motion& motion, const Options& options)
-      : size_(size_of(options.size)), target_(size_.width, size_.height, samples_a_pixel) {
+      : size_(size_of(options.size, usual_size)), target_(size_.width, size_.height, samples_a_pixel) {
     const Box bounds = figures.bounds(motion);
     const auto view = view_of(options.view).value_or(planar(bounds) ? View::front : View::free);
     camera_ = overview(bounds, view, {size_.width, size_.height});
@@ -119,14 +126,14 @@ bool play(const Figures& figures, const Motion& motion, const Options& options, 
 enum Exit { done = 0, interrupted = 2 };
 
 int draw(const Options& options, const Figures& figures, const Motion& motion) {
-  const Look look{options.theme == "dark" ? Theme::dark : Theme::light, options.trails};
+  const Look look{theme_of(options), options.trails};
   for (const std::string& trail : look.trails) figures.way(motion, trail, std::vector{motion.start});  // is there one?
   const auto pattern = pattern_of(options.output);
   const auto extension = std::filesystem::path(options.output).extension();
   const bool film = extension == ".mp4";
   if (!film && extension != ".png") {
-    throw InputError("pictures are written as .png, a film as .mp4: '" + options.output +
-                     "' is none of them");
+    throw InputError("pictures are written as .png, a film as .mp4, curves (--curves) as .png or .svg: '" +
+                     options.output + "' is none of them");
   }
   if (pattern && (film || options.strip > 0 || options.at)) {
     throw InputError("'" + options.output + "' numbers many files, but one is asked for");
@@ -156,18 +163,65 @@ int draw(const Options& options, const Figures& figures, const Motion& motion) {
     return play(figures, motion, options, look, studio, write) ? done : interrupted;
   }
   Film out(options.output, studio.size().width, studio.size().height, options.rate);
-  const bool whole =
-      play(figures, motion, options, look, studio, [&](int, const Image& image) { out.add(image); });
+  const bool whole = play(figures, motion, options, look, studio, [&](int, const Image& image) { out.add(image); });
   out.finish();
   return whole ? done : interrupted;
+}
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= list.size();) {
+    const auto end = std::min(list.find(',', at), list.size());
+    words.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+int draw_curves(const Options& options, const Motion& motion, const Problem* problem) {
+  if (options.at || options.strip > 0 || !options.trails.empty())
+    throw InputError("curves are drawn by themselves, without --at, --strip and --trail");
+  const auto extension = std::filesystem::path(options.output).extension();
+  if (extension != ".png" && extension != ".svg")
+    throw InputError("curves are written as .png or .svg: '" + options.output + "' is neither");
+  Chart chart{even_times(motion.start, motion.end, chart_times), {}, theme_of(options)};
+  for (const std::string& list : options.curves) {
+    auto& panel = chart.panels.emplace_back();
+    for (const std::string& name : words_of(list))
+      for (Curve& curve : curves_of(motion, problem, name, chart.times)) panel.push_back(std::move(curve));
+  }
+  const auto panels = static_cast<int>(chart.panels.size());
+  const Size size = size_of(options.size, {chart_width, panels * panel_height + chart_margins});
+  const Drawing drawing = draw(chart, size.width, size.height);
+  make_folder_of(options.output);
+  if (extension == ".svg")
+    write_text(options.output, svg(drawing));
+  else
+    write_png(options.output, raster(drawing));
+  return done;
+}
+
+// A problem's expressions take the motion's trajectories and numbers by name.
+void check_belongs(const Problem& problem, const Motion& motion) {
+  const auto require = [](bool there, const std::string& name) {
+    if (!there) throw InputError("the problem is not this motion's: the motion has no '" + name + "'");
+  };
+  const auto has = [](const auto& list, const std::string& name) {
+    return std::ranges::any_of(list, [&](const auto& entry) { return entry.first == name; });
+  };
+  for (const Dof& dof : problem.dofs)
+    require(std::ranges::find(motion.dofs, dof.name, &Trajectory::name) != motion.dofs.end(), dof.name);
+  for (const Constant& constant : problem.constants) require(has(motion.constants, constant.name), constant.name);
+  for (const Parameter& parameter : problem.parameters) require(has(motion.parameters, parameter.name), parameter.name);
 }
 
 int run(const Options& options) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   const Motion motion = read_motion(read_text(options.motion));
-  const auto problem =
-      options.problem.empty() ? std::nullopt : std::optional(read_problem(read_text(options.problem)));
+  const auto problem = options.problem.empty() ? std::nullopt : std::optional(read_problem(read_text(options.problem)));
+  if (problem) check_belongs(*problem, motion);
+  if (!options.curves.empty()) return draw_curves(options, motion, problem ? &*problem : nullptr);
   const Figures figures = problem ? Figures(*problem) : Figures(motion);
   if (figures.empty()) {
     throw InputError("there is nothing to draw: the motion has no bodies and no degrees of freedom of its own");
@@ -180,23 +234,24 @@ int run(const Options& options) {
 Command add_render(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("render",
-                                         "Draws a motion into files, without a window: numbered pictures, a film or "
-                                         "one picture.\nCtrl-C stops it; what is finished stays.");
+                                         "Draws a motion into files, without a window: numbered pictures, a film, "
+                                         "one picture, or curves.\nCtrl-C stops it; what is finished stays.");
   command->add_option("MOTION", options->motion, "The motion, a file or - for standard input")->required();
   command
       ->add_option("-o,--output", options->output,
-                   "frames/%04d.png: numbered pictures; film.mp4: a film (by ffmpeg); one .png with --at or --strip")
+                   "frames/%04d.png: numbered pictures; film.mp4: a film (by ffmpeg); one .png with "
+                   "--at or --strip; .png or .svg with --curves")
       ->required();
   command->add_option("--rate", options->rate, "Pictures a second")
       ->check([](const std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        return *end == '\0' && value > 0 && value <= 1000 ? "" : "expected a number from 0 to 1000, found '" + text + "'";
+        return *end == '\0' && value > 0 && value <= 1000 ? ""
+                                                          : "expected a number from 0 to 1000, found '" + text + "'";
       })
       ->capture_default_str();
-  command->add_option("--size", options->size, "Of a picture, in pixels")->capture_default_str();
-  command
-      ->add_option("--view", options->view, "From where; by default front where all moves in a plane, else free")
+  command->add_option("--size", options->size, "Of a picture, in pixels: 1280x720 unless said");
+  command->add_option("--view", options->view, "From where; by default front where all moves in a plane, else free")
       ->check(CLI::IsMember({"front", "side", "top", "free"}));
   command->add_option("--theme", options->theme, "Light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
@@ -207,6 +262,12 @@ Command add_render(CLI::App& app) {
   command
       ->add_option("--trail", options->trails,
                    "Also draw the way of a body, a creature's last body, or a named point; may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--curves", options->curves,
+          "Curves against time, in one panel: degrees of freedom, creatures, either's derivatives (arm.elbow', "
+          "arm''), named expressions; commas between; may be repeated for more panels")
       ->allow_extra_args(false);
   command->add_option("--problem", options->problem,
                       "The motion's problem, a file or -: then every named expression can be drawn");

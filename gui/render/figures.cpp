@@ -22,7 +22,9 @@ std::string creature_of(const std::string& name) { return name.substr(0, name.fi
 
 // The axis that a degree of freedom's name speaks of, and what it has in common with its neighbours.
 std::optional<std::pair<int, std::string>> coordinate(const std::string& name) {
-  const auto axis = [](char c) { return static_cast<int>(std::string("xyz").find(static_cast<char>(std::tolower(c)))); };
+  const auto axis = [](char c) {
+    return static_cast<int>(std::string("xyz").find(static_cast<char>(std::tolower(c))));
+  };
   const auto is_axis = [](char c) { return std::string("xyzXYZ").find(c) != std::string::npos; };
   if (is_axis(name.back())) return std::pair{axis(name.back()), name.substr(0, name.size() - 1)};
   const bool numbered = std::all_of(name.begin() + 1, name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -33,18 +35,6 @@ std::optional<std::pair<int, std::string>> coordinate(const std::string& name) {
 const Trajectory* find_dof(const Motion& motion, const std::string& name) {
   const auto found = std::ranges::find(motion.dofs, name, &Trajectory::name);
   return found == motion.dofs.end() ? nullptr : &*found;
-}
-
-// A sampled table's row at a time, between its neighbours.
-std::vector<double> between(const Samples& samples, const std::vector<std::vector<double>>& rows, double t) {
-  const auto after = std::ranges::lower_bound(samples.times, t);
-  if (after == samples.times.end()) return rows.back();
-  const auto i = static_cast<std::size_t>(after - samples.times.begin());
-  if (i == 0) return rows.front();
-  const double share = (t - samples.times[i - 1]) / (samples.times[i] - samples.times[i - 1]);
-  std::vector<double> row;
-  for (std::size_t k = 0; k < rows[i].size(); ++k) row.push_back(rows[i - 1][k] + share * (rows[i][k] - rows[i - 1][k]));
-  return row;
 }
 
 glm::vec3 vector_of(const std::vector<double>& row) {
@@ -271,9 +261,7 @@ float ground_height(const Box& bounds) {
   return -bounds.low.y < bounds.size().y / 12 ? 0.0F : bounds.low.y;
 }
 
-bool planar(const Box& bounds) {
-  return bounds.size().z < 0.25F * std::max(bounds.size().x, bounds.size().y);
-}
+bool planar(const Box& bounds) { return bounds.size().z < 0.25F * std::max(bounds.size().x, bounds.size().y); }
 
 std::vector<double> even_times(double start, double end, int count) {
   std::vector<double> times;

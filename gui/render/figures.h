@@ -25,8 +25,8 @@ class Figures {
   explicit Figures(const Motion& motion);  // what the motion carries: no named expressions but those it has sampled
 
   bool empty() const { return parts_.empty(); }
-  std::size_t size() const { return parts_.size(); }                      // of what is drawn; a solid's id is below it
-  const std::string& name(int id) const { return parts_.at(id).name; }    // "arm.fore", or a bead's
+  std::size_t size() const { return parts_.size(); }                    // of what is drawn; a solid's id is below it
+  const std::string& name(int id) const { return parts_.at(id).name; }  // "arm.fore", or a bead's
   Colour colour(int id, Theme theme) const;
 
   // The poses of all parts, one row a time (s, within the motion's span).
@@ -51,11 +51,11 @@ class Figures {
  private:
   struct Part {
     std::string name;
-    int series = 0;                // of colours: its creature's
-    int rank = 0;                  // among its creature's
-    const Body* body = nullptr;    // or a bead
+    int series = 0;                     // of colours: its creature's
+    int rank = 0;                       // among its creature's
+    const Body* body = nullptr;         // or a bead
     std::array<std::string, 3> dofs{};  // of a bead: x, y, z; empty where it stays
-    float behind = 0;              // m, of a bead
+    float behind = 0;                   // m, of a bead
   };
   void add_bodies();
   void add_beads(const std::vector<std::string>& dofs);

@@ -24,11 +24,34 @@ Film::Film(std::string file, int width, int height, double frames_per_second)
     : file_(std::move(file)), beside_(file_ + ".part") {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   // Pictures of odd size are widened by a pixel, which the format asks for.
-  std::vector<std::string> words{"ffmpeg",   "-loglevel", "error",    "-y",       "-f",     "rawvideo",
-                                 "-pix_fmt", "rgba",      "-s",       size,       "-r",     std::to_string(frames_per_second),
-                                 "-i",       "-",         "-an",      "-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                 "-c:v",     "libx264",   "-pix_fmt", "yuv420p",  "-crf",   "18",
-                                 "-movflags", "+faststart", "-f",     "mp4",      "file:" + beside_};
+  std::vector<std::string> words{"ffmpeg",
+                                 "-loglevel",
+                                 "error",
+                                 "-y",
+                                 "-f",
+                                 "rawvideo",
+                                 "-pix_fmt",
+                                 "rgba",
+                                 "-s",
+                                 size,
+                                 "-r",
+                                 std::to_string(frames_per_second),
+                                 "-i",
+                                 "-",
+                                 "-an",
+                                 "-vf",
+                                 "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                 "-c:v",
+                                 "libx264",
+                                 "-pix_fmt",
+                                 "yuv420p",
+                                 "-crf",
+                                 "18",
+                                 "-movflags",
+                                 "+faststart",
+                                 "-f",
+                                 "mp4",
+                                 "file:" + beside_};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

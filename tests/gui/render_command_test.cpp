@@ -107,6 +107,15 @@ TEST(Render, AFilmHasItsFramesAndSize) {
   EXPECT_FALSE(fs::exists(film + ".part"));
 }
 
+TEST(Render, CurvesAreDrawnAsPngAndAsSvg) {
+  const std::string png = scratch("curves.png"), svg = scratch("curves.svg");
+  ASSERT_EQ(render({"--curves", "ball,ball.X'", "--curves", "ball''", "-o", png}).code, 0);
+  EXPECT_EQ(read_png(png).height, 550);
+  EXPECT_GT(coloured(read_png(png)), 1000);
+  ASSERT_EQ(render({"--curves", "ball.X'", "-o", svg}).code, 0);
+  EXPECT_NE(read_text(svg).find(">ball.X'</text>"), std::string::npos);
+}
+
 TEST(Render, WithoutFfmpegItSaysWhatToInstall) {
   const Result result = [&] {
     const std::string path = std::getenv("PATH");
@@ -146,6 +155,9 @@ TEST(Render, RefusesInSentencesThatSayWhatToDo) {
       {{"-o", "x.png", "--at", "0", "--size", "99999x20"}, "its edges must be"},
       {{"-o", "x.png", "--at", "0", "--trail", "nose"}, "there are ball, ball.body"},
       {{"-o", "x%d.png", "--rate", "0"}, "--rate"},
+      {{"-o", "x.png", "--curves", "ball.X,nose"}, "there is no curve 'nose'; there are ball.X"},
+      {{"-o", "x.mp4", "--curves", "ball"}, "as .png or .svg"},
+      {{"-o", "x.png", "--curves", "ball", "--at", "0"}, "by themselves"},
       {{"-o", "x.png", "--at", "0", "--view", "under"}, "--view"},
       {{"-o", "/proc/no/x.png", "--at", "0"}, "/proc/no"},
       {{"-o", "/proc/x.png", "--at", "0"}, "/proc/x.png"},
@@ -156,6 +168,17 @@ TEST(Render, RefusesInSentencesThatSayWhatToDo) {
     EXPECT_EQ(result.code, 1) << arguments[1];
     EXPECT_NE(result.err.find(words), std::string::npos) << arguments[1] << ": " << result.err;
   }
+}
+
+TEST(Render, TheProblemOfAnotherMotionIsRefused) {
+  const std::string other = scratch("other.json");
+  const Result compiled =
+      test::run("spacetime-symbolic", {"compile", "-"}, "time [0, 1]\ntrajectory bspline spans 4\ndof stray\n");
+  ASSERT_EQ(compiled.code, 0) << compiled.err;
+  write_text(other, compiled.out);
+  const Result result = render({"-o", "x.png", "--at", "0", "--problem", other});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("the motion has no 'stray'"), std::string::npos) << result.err;
 }
 
 TEST(Pattern, NumbersFiles) {

@@ -45,7 +45,8 @@ Motion swing() {
 }
 
 void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-6F) {
-  EXPECT_LT(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+  EXPECT_LT(glm::length(a - b), tolerance)
+      << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 glm::vec3 other_end(const Solid& solid) { return glm::vec3(solid.pose * glm::vec4(solid.extent, 1)); }
