@@ -22,7 +22,10 @@ const glm::vec3 to_light = glm::normalize(glm::vec3{-0.45F, 1.0F, 0.55F});
 struct Light {
   glm::mat4 matrix{1};
   float across = 1;  // m
+  Box shadow;        // what it can darken of the ground
 };
+
+constexpr float penumbra = 0.012F;  // of what the map spans
 
 Light light_on(const Picture& picture) {
   Box box;
@@ -33,7 +36,15 @@ Light light_on(const Picture& picture) {
   // The ground may lie far below what throws a shadow on it.
   const float depth = 2 * radius + 2 * std::max(0.0F, box.centre().y - picture.ground_height);
   const glm::mat4 view = glm::lookAt(box.centre() + 2 * radius * to_light, box.centre(), {0, 1, 0});
-  return {glm::ortho(-radius, radius, -radius, radius, 0.0F, 2 * radius + depth) * view, 2 * radius};
+  Box shadow;
+  for (int k = 0; k < 8; ++k) {
+    const glm::vec3 corner{k & 1 ? box.low.x : box.high.x, k & 2 ? box.low.y : box.high.y,
+                           k & 4 ? box.low.z : box.high.z};
+    shadow.include(corner - to_light * ((corner.y - picture.ground_height) / to_light.y));
+  }
+  shadow.low -= 4 * penumbra * radius;
+  shadow.high += 4 * penumbra * radius;
+  return {glm::ortho(-radius, radius, -radius, radius, 0.0F, 2 * radius + depth) * view, 2 * radius, shadow};
 }
 
 // The rotation whose z axis is `end`, in front of the pose.
@@ -51,7 +62,8 @@ struct Renderer::Resources {
   Shader solid{{shaders::solid_vertex}, {shaders::shadow, shaders::solid_fragment}};
   Shader depth{{shaders::solid_vertex}, {shaders::depth_fragment}};
   Shader background{{shaders::background_vertex}, {shaders::background_fragment}};
-  Shader ground{{shaders::ground_vertex}, {shaders::shadow, shaders::ground_fragment}};
+  Shader ground{{shaders::ground_vertex}, {shaders::ground_fragment}};
+  Shader shade{{shaders::ground_vertex}, {shaders::shadow, shaders::shade_fragment}};
   Shader stroke{{shaders::stroke_vertex}, {shaders::stroke_fragment}};
   Vertices capsule{3, 3, 1}, box{3, 3, 1}, strokes{3, 4, 4}, nothing{};
   ShadowMap fast{1024}, fine{2048};
@@ -92,7 +104,6 @@ struct Renderer::Resources {
 namespace {
 
 void set_light(const Shader& shader, const Light& light, Quality quality) {
-  constexpr float penumbra = 0.012F;  // of what the map spans
   shader.set("light_matrix", light.matrix);
   shader.set("shadow_map", 0);
   shader.set("softness", penumbra);
@@ -149,14 +160,26 @@ void Renderer::draw(const Picture& picture, const Camera& camera, int width, int
     const float radius = 5 * camera.distance;
     r.ground.use();
     r.ground.set("matrix", matrix);
-    r.ground.set("centre", glm::vec3{camera.target.x, picture.ground_height, camera.target.z});
+    const glm::vec3 centre{camera.target.x, picture.ground_height, camera.target.z};
+    r.ground.set("centre", centre);
+    r.ground.set("middle", centre);
+    r.ground.set("half_size", glm::vec3(radius));
     r.ground.set("radius", radius);
     r.ground.set("colour", colours.ground);
     r.ground.set("grid", colours.grid);
-    r.ground.set("shade", picture.theme == Theme::light ? 0.24F : 0.45F);
     r.ground.set("spacing", std::pow(10.0F, std::floor(std::log10(camera.distance / 5))));
-    set_light(r.ground, light, quality);
     r.nothing.draw(6);
+    if (!light.shadow.empty()) {
+      r.shade.use();
+      r.shade.set("matrix", matrix);
+      r.shade.set("centre", centre);
+      r.shade.set("radius", radius);
+      r.shade.set("middle", glm::vec3{light.shadow.centre().x, picture.ground_height, light.shadow.centre().z});
+      r.shade.set("half_size", 0.5F * light.shadow.size());
+      r.shade.set("shade", picture.theme == Theme::light ? 0.24F : 0.45F);
+      set_light(r.shade, light, quality);
+      r.nothing.draw(6);
+    }
   }
 
   // Ghosts one after another, each a picture of its own over those before; the figure over all.  Its nearest surfaces

@@ -82,13 +82,12 @@ void main() { result = vec4(mix(below, above, height), 1.0); }
 
 inline constexpr const char* ground_vertex = R"(
 uniform mat4 matrix;
-uniform vec3 centre;
-uniform float radius;
+uniform vec3 middle, half_size;
 out vec3 place;
 void main() {
   int k = gl_VertexID < 3 ? gl_VertexID : gl_VertexID - 2;  // two triangles: 0 1 2, 1 2 3
   vec2 corner = vec2(k & 1, k >> 1) * 2.0 - 1.0;
-  place = centre + radius * vec3(corner.x, 0.0, corner.y);
+  place = middle + half_size * vec3(corner.x, 0.0, corner.y);
   gl_Position = matrix * vec4(place, 1.0);
 }
 )";
@@ -98,9 +97,8 @@ void main() {
 inline constexpr const char* ground_fragment = R"(
 in vec3 place;
 uniform vec3 centre, colour, grid;
-uniform float radius, spacing, shade;
+uniform float radius, spacing;
 out vec4 result;
-float lit(vec3 place);
 float lines(float step) {
   vec2 at = place.xz / step;
   vec2 pixel = fwidth(at);
@@ -111,9 +109,21 @@ float lines(float step) {
 void main() {
   float fade = 1.0 - smoothstep(0.12, 1.0, length(place.xz - centre.xz) / radius);
   float line = max(0.16 * lines(spacing), 0.42 * lines(10.0 * spacing));
-  vec3 mixed = mix(colour, grid, line);
-  mixed *= mix(1.0 - shade, 1.0, lit(place));
-  result = vec4(mixed, fade);
+  result = vec4(mix(colour, grid, line), fade);
+}
+)";
+
+// The shadow on it, drawn over as much of it as can be in shadow: to ask the map for every pixel of the ground takes
+// many times as long as all else where there is no graphics card.
+inline constexpr const char* shade_fragment = R"(
+in vec3 place;
+uniform vec3 centre;
+uniform float radius, shade;
+out vec4 result;
+float lit(vec3 place);
+void main() {
+  float fade = 1.0 - smoothstep(0.12, 1.0, length(place.xz - centre.xz) / radius);
+  result = vec4(0.0, 0.0, 0.0, fade * shade * (1.0 - lit(place)));
 }
 )";
 

@@ -21,7 +21,7 @@ Target::Target(int width, int height, int samples) : width_(width), height_(heig
   GLint before = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
 
-  const GLsizei used = std::min(samples, most);
+  const GLsizei used = samples > 1 ? std::min(samples, most) : 0;  // 1 may be rounded up
   glGenRenderbuffers(1, &colour_);
   glBindRenderbuffer(GL_RENDERBUFFER, colour_);
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, used, GL_RGBA8, width, height);
