@@ -35,6 +35,7 @@ struct Options {
   std::string motion, output, problem, size, view, theme = "light";
   double rate = 30;
   int strip = 0;
+  bool apart = false;
   std::optional<double> at;
   std::vector<std::string> trails, curves;
 };
@@ -83,7 +84,11 @@ class Studio {
  public:
   Studio(const Figures& figures, const Motion& motion, const Options& options)
       : size_(size_of(options.size, usual_size)), target_(size_.width, size_.height, samples_a_pixel) {
-    const Box bounds = figures.bounds(motion);
+    stand(figures.bounds(motion), options);
+  }
+
+  // Where all of a room can be seen.
+  void stand(const Box& bounds, const Options& options) {
     const auto view = view_of(options.view).value_or(planar(bounds) ? View::front : View::free);
     camera_ = overview(bounds, view, {size_.width, size_.height});
   }
@@ -143,6 +148,8 @@ int draw(const Options& options, const Figures& figures, const Motion& motion) {
                      "(--strip 12), or number the pictures (-o 'frames/%04d.png')");
   }
   if (film && (options.strip > 0 || options.at)) throw InputError("one picture is no film: write it as .png");
+  if (options.apart && (options.strip == 0 || !look.trails.empty()))
+    throw InputError("--apart sets the poses of a --strip side by side, where trails have no place");
   if (options.at && (*options.at < motion.start || *options.at > motion.end)) {
     throw InputError("the motion has no time " + std::to_string(*options.at) + ": it lasts from " +
                      std::to_string(motion.start) + " to " + std::to_string(motion.end) + " s");
@@ -150,6 +157,12 @@ int draw(const Options& options, const Figures& figures, const Motion& motion) {
 
   Studio studio(figures, motion, options);
   make_folder_of(options.output);
+  if (options.apart) {
+    const Picture picture = apart(figures, motion, options.strip, look);
+    studio.stand(bounds(picture), options);
+    write_png(options.output, studio.shoot(picture));
+    return done;
+  }
   if (options.strip > 0) {
     write_png(options.output, studio.shoot(strip(figures, motion, options.strip, look)));
     return done;
@@ -259,6 +272,7 @@ Command add_render(CLI::App& app) {
   command->add_option("--at", options->at, "One picture, at this time (s)");
   command->add_option("--strip", options->strip, "One picture of so many poses, paler the earlier they are")
       ->check(CLI::Range(2, 200));
+  command->add_flag("--apart", options->apart, "With --strip: the poses side by side instead of over one another");
   command
       ->add_option("--trail", options->trails,
                    "Also draw the way of a body, a creature's last body, or a named point; may be repeated")

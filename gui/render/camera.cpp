@@ -1,7 +1,9 @@
 #include "gui/render/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -67,20 +69,39 @@ Camera zoom(Camera camera, float factor, const glm::vec2& pixel, const glm::vec2
   return camera;
 }
 
-// With q the corner seen from the target, x <= (d - z) tan is what asks for the distance d = z + x/tan.
+// With q a corner seen from the target, x <= (d - z) tan is what asks for the distance d = z + x/tan.  Near corners
+// reach further out than far ones, so that the box's centre is not the picture's: the target is moved to the middle of
+// what is seen, which changes the distance, and so on.
 Camera frame(Camera camera, const Box& box, const glm::vec2& size, float margin) {
+  constexpr int rounds = 12;  // each leaves about a third of what is off
   if (box.empty()) return camera;
   const auto [right, up, back] = axes(camera);
   camera.target = box.centre();
   const float vertical = std::tan(camera.fov / 2) * (1 - 2 * margin), horizontal = vertical * size.x / size.y;
-  float distance = 1e-2F;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 half = 0.5F * box.size();
-    const glm::vec3 q{corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z};
-    const float needed = std::max(std::abs(glm::dot(q, right)) / horizontal, std::abs(glm::dot(q, up)) / vertical);
-    distance = std::max(distance, camera.orthographic ? needed : needed + glm::dot(q, back));
+  std::array<glm::vec3, 8> corners;
+  for (int k = 0; k < 8; ++k) {
+    corners[static_cast<std::size_t>(k)] = {k & 1 ? box.low.x : box.high.x, k & 2 ? box.low.y : box.high.y,
+                                            k & 4 ? box.low.z : box.high.z};
   }
-  camera.distance = distance;
+  for (int round = 0; round <= rounds; ++round) {
+    camera.distance = 1e-2F;
+    for (const glm::vec3& corner : corners) {
+      const glm::vec3 q = corner - camera.target;
+      const float needed = std::max(std::abs(glm::dot(q, right)) / horizontal, std::abs(glm::dot(q, up)) / vertical);
+      camera.distance = std::max(camera.distance, camera.orthographic ? needed : needed + glm::dot(q, back));
+    }
+    if (round == rounds) break;
+    glm::vec2 low(1e9F), high(-1e9F);
+    for (const glm::vec3& corner : corners) {
+      const glm::vec3 q = corner - camera.target;
+      const float depth = camera.distance - (camera.orthographic ? 0 : glm::dot(q, back));
+      const glm::vec2 seen = glm::vec2(glm::dot(q, right), glm::dot(q, up)) * (camera.distance / depth);
+      low = glm::min(low, seen);
+      high = glm::max(high, seen);
+    }
+    const glm::vec2 middle = 0.5F * (low + high);
+    camera.target += middle.x * right + middle.y * up;
+  }
   return camera;
 }
 

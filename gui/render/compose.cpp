@@ -43,6 +43,34 @@ Picture strip(const Figures& figures, const Motion& motion, int poses, const Loo
   return picture;
 }
 
+Picture apart(const Figures& figures, const Motion& motion, int poses, const Look& look) {
+  constexpr float room = 1.15F;  // for a pose, over the widest one's width
+  Picture picture = bare(figures, motion, look);
+  std::vector<std::vector<Solid>> all;
+  std::vector<Box> boxes;
+  float widest = 0;
+  for (const double t : even_times(motion.start, motion.end, poses)) {
+    all.push_back(figures.solids(motion, t, look.theme));
+    boxes.emplace_back();
+    for (const Solid& solid : all.back()) boxes.back().include(bounds(solid));
+    widest = std::max(widest, boxes.back().size().x);
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const float shift = room * widest * static_cast<float>(k) - boxes[k].centre().x;
+    for (Solid& solid : all[k]) {
+      solid.pose[3].x += shift;
+      picture.solids.push_back(solid);
+    }
+  }
+  return picture;
+}
+
+Box bounds(const Picture& picture) {
+  Box box;
+  for (const Solid& solid : picture.solids) box.include(bounds(solid));
+  return box;
+}
+
 Camera overview(const Box& bounds, View view, const glm::vec2& size) {
   Box room = bounds;
   if (!room.empty() && ground_height(bounds) < room.low.y + 0.5F * room.size().y) {

@@ -86,6 +86,24 @@ TEST(Render, AStripHasAllPoses) {
   EXPECT_GT(coloured(read_png(strip)), 2 * coloured(read_png(one)));  // the palest hardly count
 }
 
+TEST(Render, PosesApartDoNotOverlap) {
+  const std::string strip = scratch("apart.png");
+  ASSERT_EQ(render({"-o", strip, "--strip", "5", "--apart", "--size", "400x120"}).code, 0);
+  const Image image = read_png(strip);
+  int runs = 0;  // of columns with colour
+  bool inside = false;
+  for (int x = 0; x < image.width; ++x) {
+    bool colour = false;
+    for (int y = 0; y < image.height; ++y) {
+      const auto* p = image.at(x, y);
+      colour = colour || std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}) > 40;
+    }
+    runs += colour && !inside ? 1 : 0;
+    inside = colour;
+  }
+  EXPECT_EQ(runs, 5);
+}
+
 TEST(Render, TheDarkThemeIsDark) {
   const std::string light = scratch("light.png"), dark = scratch("dark.png");
   ASSERT_EQ(render({"-o", light, "--at", "0", "--size", "64x48"}).code, 0);
@@ -150,6 +168,7 @@ TEST(Render, RefusesInSentencesThatSayWhatToDo) {
       {{"-o", "x%d.png", "--at", "0"}, "numbers many files"},
       {{"-o", "x.mp4", "--strip", "4"}, "no film"},
       {{"-o", "x.png", "--at", "7"}, "lasts from"},
+      {{"-o", "x.png", "--at", "0", "--apart"}, "poses of a --strip"},
       {{"-o", "x.png", "--at", "0", "--size", "12"}, "like 1280x720"},
       {{"-o", "x.png", "--at", "0", "--size", "9999999x20"}, "like 1280x720"},
       {{"-o", "x.png", "--at", "0", "--size", "99999x20"}, "its edges must be"},
