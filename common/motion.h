@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "common/checkpoint.h"
 #include "common/problem.h"
+#include "common/trajectory.h"
 
 namespace spacetime {
 
@@ -35,13 +37,6 @@ struct Violation {
   int line = 0;
   std::optional<Multiplier> multiplier{};  // where the method knows it and constraints can be kept
   bool operator==(const Violation&) const = default;
-};
-
-struct Trajectory {
-  std::string name;  // of the degree of freedom
-  Basis basis;
-  std::vector<double> coefficients;
-  bool operator==(const Trajectory&) const = default;
 };
 
 // Sampled expressions and body poses, on request.
@@ -93,6 +88,7 @@ struct Motion {
   std::vector<Minimum> minima;              // distinct ones, best first, where the last `solve` had many starts
   std::vector<Body> bodies;                 // the problem's, so that a motion can be drawn by itself ...
   std::map<std::string, Program> programs;  // ... and what gives their poses and sizes, by hash
+  std::optional<Checkpoint> checkpoint;     // on request: where to go on, bit for bit
   bool operator==(const Motion&) const = default;
 };
 

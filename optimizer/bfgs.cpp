@@ -48,11 +48,25 @@ BfgsState Bfgs::start(const std::vector<double>& x) {
   return state;
 }
 
+BfgsState Bfgs::resume(const std::vector<double>& x, const std::vector<double>& inverse) {
+  BfgsState state;
+  const Stopwatch watch(state.seconds.evaluate);
+  state.point = penalty_.settled_at(x);
+  state.inverse = Eigen::MatrixXd::Identity(penalty_.size(), penalty_.size());
+  auto next = inverse.begin();
+  for (int i = 0; i < penalty_.size(); ++i) {
+    for (int j = 0; j <= i; ++j) state.inverse(i, j) = *next++;
+  }
+  judge(state);
+  return state;
+}
+
 // The multipliers that go with a point are what the penalty pulls with, 2 w c: the gradient of the Lagrangian is F's.
 void Bfgs::judge(BfgsState& state) const {
   const PenaltyPoint& point = state.point;
   state.x = point.x;
   state.values = point.values;
+  state.multipliers.assign(t_.rows.size(), 0.0);
   state.measures = {};
   state.measures.violation = point.violation;
   if (point.gradient.size() > 0) {

@@ -31,7 +31,11 @@ class Bfgs {
   Bfgs(const Transcription& transcription, const Layout& layout, BfgsOptions options = {});
 
   BfgsState start(const std::vector<double>& x);
+  // With functionals in x and H as they were: its lower triangle, row by row.
+  BfgsState resume(const std::vector<double>& x, const std::vector<double>& inverse);
   StepResult step(BfgsState& state, double tolerance);  // stepped, converged, not_finite or exhausted
+
+  int size() const { return penalty_.size(); }  // unknowns of H
 
   // What `exhausted` means here.
   std::string ending(const BfgsState& state) const;

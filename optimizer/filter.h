@@ -2,12 +2,22 @@
 // other. [Fletcher and Leyffer 2002; Waechter and Biegler 2006, §2.3]
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace spacetime::optimizer {
 
 class Filter {
  public:
+  struct Pair {
+    double violation, objective;
+  };
+
+  Filter() = default;
+  Filter(std::vector<Pair> pairs, double most) : pairs_(std::move(pairs)), most_(most) {}
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  double most() const { return most_; }
+
   // Whether a point improves upon every pair in the filter.
   bool admits(double violation, double objective) const {
     for (const auto& [v, f] : pairs_) {
@@ -28,9 +38,6 @@ class Filter {
   static constexpr double margin = 1e-5;  // fraction of the violation by which a step must improve
 
  private:
-  struct Pair {
-    double violation, objective;
-  };
   std::vector<Pair> pairs_;
   double most_ = 1e300;
 };

@@ -51,6 +51,7 @@ class Kkt {
   bool is_row(int position) const { return role_[position] != Role::unknown; }
   bool is_equation(int position) const { return role_[position] == Role::equation; }
   int pivoted_solves() const { return pivoted_; }  // last resorts taken so far
+  void set_pivoted_solves(int count) { pivoted_ = count; }
 
  private:
   enum class Role : unsigned char { unknown, equation, compliant };

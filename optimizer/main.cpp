@@ -16,6 +16,7 @@
 #include "optimizer/run.h"
 #include "optimizer/server.h"
 #include "optimizer/summary.h"
+#include "protocol/check.h"
 #include "protocol/motion_json.h"
 #include "protocol/problem_json.h"
 #include "protocol/serve_command.h"
@@ -41,7 +42,7 @@ struct Arguments {
   std::optional<int> iterations;
   int threads = 0;
   std::vector<std::string> show;
-  bool record = false, quiet = false;
+  bool record = false, checkpoint = false, anew = false, quiet = false;
 };
 
 int exit_code(Status status) {
@@ -60,12 +61,19 @@ int exit_code(Status status) {
 int solve(const Arguments& arguments) {
   const Problem problem = read_problem(read_text(arguments.problem));
   optimizer::RunOptions options;
-  if (!arguments.start.empty()) options.start = read_motion(read_text(arguments.start));
+  if (!arguments.start.empty()) {
+    options.start = read_motion(read_text(arguments.start));
+    if (arguments.anew) options.start->checkpoint.reset();
+    if (const auto fault = validate(*options.start, problem)) {
+      throw DocumentError(motion_document, fault->path, fault->message + "; or start --anew from the motion alone");
+    }
+  }
   options.tolerance = arguments.tolerance;
   options.iterations = arguments.iterations;
   options.threads = arguments.threads;
   options.frames_per_second = arguments.samples;
   options.record = arguments.record;
+  options.checkpoint = arguments.checkpoint;
   options.interrupted = [] { return interrupts > 0; };
   std::vector<optimizer::Show> shows;
   for (const std::string& text : arguments.show) shows.push_back(optimizer::parse_show(problem, text));
@@ -79,7 +87,8 @@ int solve(const Arguments& arguments) {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 
-  const Motion motion = optimizer::run(problem, options);
+  Motion motion = optimizer::run(problem, options);
+  if (motion.checkpoint) motion.checkpoint->problem = fingerprint(problem);
   write_text(arguments.output, write(motion));
   if (!arguments.quiet) std::cerr << optimizer::summary(problem, motion, shows);
   return exit_code(motion.status);
@@ -109,7 +118,10 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   command->add_option("-o,--output", arguments.output, "Where the motion goes, - for standard output")
       ->capture_default_str();
-  command->add_option("--start", arguments.start, "A motion to start from, instead of the keyframes");
+  command->add_option("--start", arguments.start,
+                      "A motion to start from, instead of the keyframes; where it has a checkpoint, the run it was\n"
+                      "taken from is resumed: with the same options the motion is the one of a run never interrupted");
+  command->add_flag("--anew", arguments.anew, "Start from the motion alone, even where it has a checkpoint");
   command
       ->add_option("--samples", arguments.samples,
                    "Frames per second: also writes plotted expressions and body poses at that rate")
@@ -124,6 +136,8 @@ int main(int argc, char** argv) {
                    "NAME@TIME: tell a plotted expression at a time (seconds, or a constant's name) in the summary")
       ->allow_extra_args(false);
   command->add_flag("--record", arguments.record, "Also write the record of all iterations");
+  command->add_flag("--checkpoint", arguments.checkpoint,
+                    "Also write a checkpoint into the motion, from which --start resumes bit for bit");
   command->add_flag("-q,--quiet", arguments.quiet, "No table of iterations and no summary on standard error");
 
   protocol::ServerOptions server;

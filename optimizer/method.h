@@ -16,6 +16,7 @@ namespace spacetime::optimizer {
 struct Standing {
   std::vector<double> x;
   Values values;
+  std::vector<double> multipliers;  // one a row, in the sense of  gradient + A^T multipliers = 0; 0 where not known
   Measures measures;
   double step = 0;   // largest change of a coefficient
   double shift = 0;  // correction of the Hessian

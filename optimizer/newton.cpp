@@ -140,6 +140,13 @@ void Newton::judge(NewtonState& state) {
   state.condition = StepResult::stepped;
 }
 
+void Newton::complete(NewtonState& state) {
+  state.linear = start_linearisation(layout_);
+  state.multipliers.assign(t_.rows.size(), 0.0);
+  state.values = evaluate(t_, state.x, workspace_, state.active);
+  judge(state);
+}
+
 NewtonState Newton::start(std::vector<double> x, const Carried* carried) {
   NewtonState state;
   settle_functionals(t_, x, workspace_);

@@ -72,7 +72,12 @@ class Newton {
   // One accepted step, or why there is none.  The state holds the point reached, judged.
   StepResult step(NewtonState& state, double tolerance);
 
+  // Adds what follows from a state's x, active rows and barrier: values, derivatives, multipliers, measures.  All else
+  // that a step depends on is what a checkpoint keeps (resume.h): whatever is added to the state belongs there, too.
+  void complete(NewtonState& state);
+
   int pivoted_solves() const { return kkt_.pivoted_solves(); }
+  void set_pivoted_solves(int count) { kkt_.set_pivoted_solves(count); }
 
  private:
   struct Trial {

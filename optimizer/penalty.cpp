@@ -44,9 +44,13 @@ Eigen::VectorXd Penalty::reduced(Eigen::VectorXd gradient) const {
 }
 
 PenaltyPoint Penalty::at(std::vector<double> x) {
+  settle_functionals(t_, x, workspace_);
+  return settled_at(std::move(x));
+}
+
+PenaltyPoint Penalty::settled_at(std::vector<double> x) {
   PenaltyPoint point;
   point.x = std::move(x);
-  settle_functionals(t_, point.x, workspace_);
   point.values = evaluate(t_, point.x, workspace_);
   if (!point.values.finite) return point;
   differentiate(t_, layout_, point.x, workspace_, linear_);

@@ -30,7 +30,8 @@ class Penalty {
 
   int size() const { return static_cast<int>(free_.size()); }
   std::vector<double> moved(std::vector<double> x, const Eigen::VectorXd& change) const;  // by free unknowns
-  PenaltyPoint at(std::vector<double> x);  // functionals among x are set to their values
+  PenaltyPoint at(std::vector<double> x);          // functionals among x are set to their values
+  PenaltyPoint settled_at(std::vector<double> x);  // they have them already
 
   // The diagonal of F's Hessian without the curvature of constraints, in absolute value.
   Eigen::VectorXd curvature(const PenaltyPoint& point);

@@ -144,10 +144,14 @@ class Peer {
     Session& session = present();
     const auto checkpoint = params.find("checkpoint");
     if (run_) session.stop("Going on: this is iteration " + std::to_string(session.iterations()) + ".");
-    const Motion motion = session.motion();
+    Motion motion = session.motion();
+    if (checkpoint && checkpoint->boolean()) {
+      motion.checkpoint = session.checkpoint();
+      motion.checkpoint->problem = fingerprint(session.original());
+      write_log(result, {});
+    }
     result.key("motion");
     write(result, motion);
-    if (checkpoint && checkpoint->boolean()) session.set_motion(motion);
   }
 
   void set(const Node& params, Writer& result) {
@@ -158,7 +162,14 @@ class Peer {
     double unknowns = 0;
     for (const Trajectory& dof : motion.dofs) unknowns += dof.basis.size();
     if (unknowns > allowance_.unknowns) throw beyond("unknowns", allowance_, unknowns);
-    session.set_motion(motion);
+    if (const auto fault = validate(motion, session.original())) {
+      throw DocumentError("params", "/motion" + fault->path, fault->message);
+    }
+    try {
+      session.set_motion(motion);
+    } catch (const CheckpointError& error) {
+      throw DocumentError("params", "/motion" + error.path(), error.message());
+    }
     write_edit(result, {});
   }
 
@@ -231,7 +242,8 @@ class Peer {
   }
 
   // What must be performed to come to the same bits: the iterations of a run that goes on up to here, then `done`.
-  // Messages other than actions follow what they write here.
+  // Messages other than actions follow what they write here.  What is left of a run after its last such message is
+  // logged at its end.
   void write_log(Writer& result, std::vector<PlacedAction> done) {
     const int iteration = session_->iterations();
     result.member("iteration", iteration);
@@ -316,10 +328,6 @@ Turn turn_of_action(const Json& params) {
   return word == "solve" || word == "iterate" ? Turn::waits : Turn::between;
 }
 
-Turn turn_of_get(const Json& params) {
-  return params.contains("checkpoint") && params["checkpoint"] == true ? Turn::waits : Turn::between;
-}
-
 Turn between(const Json&) { return Turn::between; }
 Turn ends(const Json&) { return Turn::ends; }
 
@@ -329,7 +337,7 @@ std::vector<protocol::Method> open(const protocol::Allowance& allowance) {
       {"problem/load", [peer](const Node& p, Writer& r, Call&) { peer->load(p, r); }, ends, true},
       {"problem/update", [peer](const Node& p, Writer& r, Call&) { peer->update(p, r); }, between, true},
       {"action/do", [peer](const Node& p, Writer& r, Call& call) { peer->act(p, r, call); }, turn_of_action},
-      {"motion/get", [peer](const Node& p, Writer& r, Call&) { peer->get(p, r); }, turn_of_get},
+      {"motion/get", [peer](const Node& p, Writer& r, Call&) { peer->get(p, r); }, between},
       {"motion/set", [peer](const Node& p, Writer& r, Call&) { peer->set(p, r); }, between},
       {"sample", [peer](const Node& p, Writer& r, Call&) { peer->sample(p, r); }, between},
   };

@@ -10,6 +10,7 @@
 #include "common/sample.h"
 #include "optimizer/carry.h"
 #include "optimizer/refine.h"
+#include "optimizer/resume.h"
 #include "optimizer/sketch.h"
 #include "optimizer/window.h"
 
@@ -48,6 +49,23 @@ void add_bodies(const Problem& problem, Motion& motion) {
   }
 }
 
+// Whether an edit leaves nothing of the one before it, so that a value that is dragged is kept once.
+template <class Edit>
+bool replaces(const Edit& edit, const Action& before) {
+  const Edit* other = std::get_if<Edit>(&before);
+  if (!other) return false;
+  if constexpr (std::is_same_v<Edit, SetConstant>)
+    return edit.constant == other->constant && edit.value.program.empty();
+  if constexpr (std::is_same_v<Edit, SetWeight>) return edit.name == other->name;
+  if constexpr (std::is_same_v<Edit, Bound>) return edit.dof == other->dof;
+  return false;
+}
+
+// What a motion's message has at its end.
+std::string remark_of(int pivoted) {
+  return pivoted > 0 ? fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted) : "";
+}
+
 }  // namespace
 
 bool is_edit(const Action& action) {
@@ -71,7 +89,8 @@ Session::Numerics::Numerics(Problem p, const Setting& setting)
 }
 
 Session::Session(Problem problem, std::optional<Motion> start)
-    : edited_{std::move(problem), {}},
+    : original_(std::make_shared<Problem>(std::move(problem))),
+      edited_{*original_, {}},
       start_(std::move(start)),
       now_(std::make_shared<Numerics>(in_effect(edited_, declared_), setting_)) {
   restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
@@ -181,6 +200,8 @@ void Session::act(const Edit& edit, const Watch&) {
   Edited next = edited_;
   apply(next, edit);
   take_over(std::move(next), setting_);
+  if (!edits_.empty() && replaces(edit, edits_.back())) edits_.pop_back();
+  edits_.push_back(edit);
 }
 
 template <class Other>
@@ -189,16 +210,20 @@ void Session::act(const Other& other, const Watch&) {
 }
 
 void Session::update(Problem problem) {
-  Edited next{std::move(problem), {}};
+  auto original = std::make_shared<const Problem>(std::move(problem));
+  Edited next{*original, {}};
   auto numerics = std::make_shared<Numerics>(in_effect(next, declared_), setting_);
   const Motion reached = motion();
   auto x = start_of(numerics->problem, numerics->whole, &reached);
+  original_ = std::move(original);
   edited_ = std::move(next);
+  edits_.clear();
   now_ = std::move(numerics);
   restart(std::move(x));
 }
 
 void Session::set_motion(const Motion& motion) {
+  if (motion.checkpoint) return resume(motion);
   // Its knots come with it: those that a refinement chose are nowhere else.
   Edited next = edited_;
   bool other = false;
@@ -272,7 +297,148 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
   state_.iterations = iterations;
   state_.seconds.evaluate += seconds.evaluate;
   state_.seconds.factor += seconds.factor;
-  judged_ = foreign_ = false;
+  judged_ = false;
+  other_ = {};
+}
+
+Checkpoint Session::checkpoint() const {
+  const Transcription& t = now_->whole;
+  Checkpoint at;
+  at.declared = declared_;
+  at.edits = edits_;
+  at.window = setting_.window;
+  at.damping = {setting_.damping.begin(), setting_.damping.end()};
+  at.shakes = shakes_;
+  if (start_) at.start = {start_->dofs, start_->parameters};
+  at.judged = judged_;
+  const auto x = unknowns();
+  at.functionals = {x.begin() + t.first_functional(), x.begin() + t.first_parameter()};
+  if (now_->part) at.outside = {objective_outside_, now_->part->elsewhere};
+  at.step = state_.step;
+  at.last_shift = state_.shift_used;
+  at.pivoted = now_->newton.pivoted_solves();
+  at.newton = kept(now_->t(), now_->layout, state_);
+  if (const auto* state = std::get_if<Sqp92State>(&other_)) at.sqp92 = kept(now_->layout, *state);
+  if (const auto* state = std::get_if<BfgsState>(&other_)) {
+    const Eigen::MatrixXd& inverse = state->inverse;
+    if (inverse.rows() > most_bfgs_checkpoint) {
+      throw InputError(
+          fmt::format("a checkpoint of the method 'bfgs' has its dense matrix, and can be made of at most "
+                      "{} unknowns; there are {}",
+                      most_bfgs_checkpoint, inverse.rows()));
+    }
+    auto& rows = at.bfgs.emplace().inverse;
+    for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) rows.push_back(inverse(i, j));
+    }
+  }
+  return at;
+}
+
+Motion Session::moment() const {
+  Motion motion;
+  motion.start = now_->problem.start;
+  motion.end = now_->problem.end;
+  motion.status = outcome_.status;
+  motion.message = outcome_.message;
+  motion.iterations = state_.iterations;
+  motion.dofs = trajectories();
+  motion.parameters = parameters();
+  motion.minima = minima_;
+  motion.checkpoint = checkpoint();
+  return motion;
+}
+
+// All is made before anything is changed: what does not fit is refused on the way.
+void Session::resume(const Motion& motion) {
+  const Checkpoint& at = *motion.checkpoint;
+  Edited edited{*original_, {}};
+  for (std::size_t i = 0; i < at.edits.size(); ++i) {
+    const auto perform = [&](const auto& edit) {
+      if constexpr (requires { apply(edited, edit); }) {
+        apply(edited, edit);
+      } else {
+        throw CheckpointError(fmt::format("/checkpoint/edits/{}", i), "this action does not edit the problem");
+      }
+    };
+    std::visit(perform, at.edits[i]);
+  }
+  std::vector<double> x;
+  require_size("/dofs", motion.dofs.size(), edited.problem.dofs.size());
+  for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
+    Dof& dof = edited.problem.dofs[k];
+    if (dof.name != motion.dofs[k].name) {
+      throw CheckpointError(fmt::format("/dofs/{}/name", k), fmt::format("the problem has '{}' here", dof.name));
+    }
+    dof.basis = motion.dofs[k].basis;
+    require_size(fmt::format("/dofs/{}/coefficients", k), motion.dofs[k].coefficients.size(), dof.basis.size());
+    x.insert(x.end(), motion.dofs[k].coefficients.begin(), motion.dofs[k].coefficients.end());
+  }
+  Setting setting{at.window, {at.damping.begin(), at.damping.end()}};
+  auto numerics = std::make_shared<Numerics>(in_effect(edited, at.declared), setting);
+  const Transcription& whole = numerics->whole;
+  require_size("/checkpoint/functionals", at.functionals.size(), whole.functionals());
+  x.insert(x.end(), at.functionals.begin(), at.functionals.end());
+  require_size("/parameters", motion.parameters.size(), edited.problem.parameters.size());
+  for (const auto& [name, value] : motion.parameters) x.push_back(value);
+
+  auto own = x;
+  if (auto& part = numerics->part) {
+    if (!at.outside) throw CheckpointError("/checkpoint", "a window needs the member 'outside'");
+    require_size("/checkpoint/outside/functionals", at.outside->functionals.size(), whole.functionals());
+    part->elsewhere = at.outside->functionals;
+    own = taken(whole, *part, x);
+  }
+  const Transcription& t = numerics->t();
+  NewtonState state = brought_back(t, numerics->layout, at.newton, std::move(own));
+  numerics->newton.complete(state);
+  numerics->newton.set_pivoted_solves(at.pivoted);
+  state.iterations = motion.iterations;
+  state.step = at.step;
+  state.shift_used = at.last_shift;
+  decltype(other_) other;
+  const auto bring_back = [&](auto found) {
+    found.step = state.step;
+    found.shift = state.shift_used;
+    state.measures = found.measures;
+    state.condition = StepResult::stepped;
+    other = std::move(found);
+  };
+  if (at.sqp92) {
+    require_size("/checkpoint/sqp92/multipliers", at.sqp92->multipliers.size(), t.rows.size());
+    require_size("/checkpoint/sqp92/weights", at.sqp92->weights.size(), t.rows.size());
+    Sqp92 method(t, numerics->layout, false);
+    bring_back(method.resume(state.x, at.sqp92->multipliers, at.sqp92->weights));
+  } else if (at.bfgs) {
+    Bfgs method(t, numerics->layout);
+    require_size("/checkpoint/bfgs/inverse", at.bfgs->inverse.size(), method.size() * (method.size() + 1) / 2);
+    bring_back(method.resume(state.x, at.bfgs->inverse));
+  }
+
+  edited_ = std::move(edited);
+  edits_ = at.edits;
+  start_.reset();
+  if (at.start) {
+    start_.emplace();
+    start_->dofs = at.start->dofs;
+    start_->parameters = at.start->parameters;
+  }
+  declared_ = at.declared;
+  setting_ = std::move(setting);
+  shakes_ = at.shakes;
+  now_ = std::move(numerics);
+  x_ = std::move(x);
+  objective_outside_ = at.outside ? at.outside->objective : 0;
+  state_ = std::move(state);
+  ++restarts_;
+  other_ = std::move(other);
+  minima_ = motion.minima;
+  outcome_ = {motion.status, motion.message};
+  const std::string remark = remark_of(at.pivoted);
+  if (!remark.empty() && outcome_.message.ends_with(remark)) {
+    outcome_.message.resize(outcome_.message.size() - remark.size());
+  }
+  judged_ = at.judged;
 }
 
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
@@ -333,15 +499,12 @@ Motion Session::motion(double tolerance) {
   motion.start = problem.start;
   motion.end = problem.end;
   motion.status = outcome_.status;
-  motion.message = outcome_.message;
-  if (const int pivoted = now_->newton.pivoted_solves(); pivoted > 0) {
-    motion.message += fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted);
-  }
+  motion.message = outcome_.message + remark_of(now_->newton.pivoted_solves());
   motion.iterations = state_.iterations;
   Workspace workspace;
   const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
   measure(t, x, evaluate(t, x, workspace, active), motion);
-  if (!foreign_) add_multipliers(now_->t(), now_->layout, state_, motion);
+  if (!foreign()) add_multipliers(now_->t(), now_->layout, state_, motion);
   motion.dofs = trajectories();
   motion.parameters = parameters();
   for (const Constant& constant : problem.constants) {

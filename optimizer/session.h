@@ -9,14 +9,17 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "common/motion.h"
 #include "common/problem.h"
+#include "optimizer/bfgs.h"
 #include "optimizer/edit.h"
 #include "optimizer/newton.h"
 #include "optimizer/outcome.h"
 #include "optimizer/reshape.h"
+#include "optimizer/sqp92.h"
 
 namespace spacetime::optimizer {
 
@@ -54,10 +57,16 @@ class Session {
 
   // The motion as it stands, with what the last action came to.  One edited since is judged first, by the tolerance.
   Motion motion(double tolerance = Solve{}.tolerance);
-  // Goes on from this motion, as far as names agree, on its knots where they span the same time, and from its number of
-  // iterations: from here on the bits are those of any other session with this problem and this motion.  Throws
-  // InputError; all is then as it was before.
+  // Goes on from this motion.  With a checkpoint: where that was made, to the same bits, edits, window and damping
+  // included, in a session of the same problem.  Without: as far as names agree, on its knots where they span the same
+  // time, and from its number of iterations.  Throws InputError (CheckpointError); all is then as it was before.
   void set_motion(const Motion& motion);
+
+  // What the next step depends on beside the motion; the caller adds which problem and which of its actions it is.
+  // Throws InputError where it would be too long a document.
+  Checkpoint checkpoint() const;
+  // The motion as it stands, to come back to by set_motion: with a checkpoint, without measures.
+  Motion moment() const;
 
   // Every plotted expression and body pose, at times (s) within the problem's span.
   Samples samples(std::span<const double> times) const;
@@ -70,6 +79,8 @@ class Session {
 
   // The problem as edited.
   const Problem& problem() const { return edited_.problem; }
+  // As it was loaded.
+  const Problem& original() const { return *original_; }
 
   // Says why nothing more is done.
   void stop(std::string message);
@@ -118,23 +129,27 @@ class Session {
   void solve_from_many(int starts, int limit, double tolerance, const Watch& watch);
   void iterate(int limit, double tolerance, const Watch& watch, const Step& step);
   void iterate(int limit, double tolerance, const Watch& watch);  // by Newton
-  template <class Make>
+  template <class State, class Make>
   void iterate_by(const Make& make, int limit, double tolerance, const Watch& watch);
   void restart(std::vector<double> x, const Carried* carried = nullptr);
   void take_over(Edited edited, const Setting& setting, const Curves* curves = nullptr);
   Curves curves() const;
   void reshape(const Curves& curves);
   void refine_where_needed(double tolerance);
+  void resume(const Motion& motion);
   bool reached(double tolerance) const;
   std::string count() const;
   std::string standing() const;
+  bool foreign() const { return other_.index() != 0; }
   std::vector<double> unknowns() const;
   std::vector<double> settled() const;
   std::string standing_elsewhere(double tolerance) const;
   double elapsed() const;
 
   Clock::time_point begun_ = Clock::now();
+  std::shared_ptr<const Problem> original_;
   Edited edited_;
+  std::vector<Action> edits_;  // that led from one to the other
   std::optional<Motion> start_;
   int declared_ = 0;  // actions of the problem's list before which everything is declared
   Setting setting_;
@@ -147,7 +162,8 @@ class Session {
   Outcome outcome_;
   std::vector<Minimum> minima_;  // of the last solve, where it had many starts
   bool judged_ = false;          // the outcome speaks of the present point
-  bool foreign_ = false;         // another method than Newton has led to it: what only Newton wants of state_ is older
+  // Of another method than Newton, where one has led to this point: what only Newton wants of state_ is then older.
+  std::variant<std::monostate, Sqp92State, BfgsState> other_;
 };
 
 }  // namespace spacetime::optimizer

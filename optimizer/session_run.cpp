@@ -5,9 +5,7 @@
 #include <thread>
 
 #include "common/diagnostic.h"
-#include "optimizer/bfgs.h"
 #include "optimizer/session.h"
-#include "optimizer/sqp92.h"
 #include "optimizer/starts.h"
 
 namespace spacetime::optimizer {
@@ -29,16 +27,17 @@ void Session::act(const Solve& solve, const Watch& watch) {
       if (solve.starts > 1) return solve_from_many(solve.starts, limit, solve.tolerance, watch);
       return iterate(limit, solve.tolerance, watch);
     case Solve::Method::sqp92:
-      return iterate_by([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit, solve.tolerance, watch);
+      return iterate_by<Sqp92State>([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit,
+                                    solve.tolerance, watch);
     case Solve::Method::bfgs:
-      return iterate_by([&] { return Bfgs(now_->t(), now_->layout); }, limit, solve.tolerance, watch);
+      return iterate_by<BfgsState>([&] { return Bfgs(now_->t(), now_->layout); }, limit, solve.tolerance, watch);
   }
 }
 
 void Session::act(const Iterate& action, const Watch& watch) { iterate(action.iterations, Solve{}.tolerance, watch); }
 
 void Session::iterate(int limit, double tolerance, const Watch& watch) {
-  if (foreign_) restart(unknowns());
+  if (foreign()) restart(unknowns());
   iterate(limit, tolerance, watch, [&](bool) -> std::optional<Outcome> {
     const StepResult result = now_->newton.step(state_, tolerance);
     if (result == StepResult::stepped) return std::nullopt;
@@ -92,7 +91,7 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   state_.iterations = iterations;
   state_.seconds = seconds;
   judged_ = true;
-  foreign_ = false;
+  other_ = {};
   if (result == StepResult::stepped) {
     outcome_ = {Status::stopped, (stopped ? "Interrupted after " : "Stopped after ") + count() + ". " + standing()};
   } else {
@@ -104,12 +103,11 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   if (watch.progress) watch.progress(record());
 }
 
-// By another method, which `make` makes: for the first step, and again for what edits have changed.
-template <class Make>
+// By another method, which `make` makes: for the first step, and again for what edits have changed.  Where the same
+// method has led here its state is gone on with: a run in pieces has the bits of the whole.
+template <class State, class Make>
 void Session::iterate_by(const Make& make, int limit, double tolerance, const Watch& watch) {
   auto method = std::make_unique<decltype(make())>(make());  // refused here, nothing is lost
-  auto state = method->start(state_.x);
-  Seconds before = state_.seconds;
   iterate(limit, tolerance, watch, [&](bool afresh) -> std::optional<Outcome> {
     if (afresh) {
       try {
@@ -117,25 +115,36 @@ void Session::iterate_by(const Make& make, int limit, double tolerance, const Wa
       } catch (const InputError& error) {
         return Outcome{Status::stopped, fmt::format("Stopped after {}: {}.", count(), error.what())};
       }
-      state = method->start(state_.x);
-      before = state_.seconds;
     }
+    Seconds before;
+    if (const State* led = std::get_if<State>(&other_)) {
+      before = led->seconds;
+    } else {
+      other_ = method->start(state_.x);
+    }
+    State& state = std::get<State>(other_);
     const StepResult result = method->step(state, tolerance);
+    state_.seconds.evaluate += state.seconds.evaluate - before.evaluate;
+    state_.seconds.factor += state.seconds.factor - before.factor;
     state_.x = state.x;
     state_.values = state.values;
     state_.measures = state.measures;
     state_.condition = StepResult::stepped;
     state_.step = state.step;
     state_.shift_used = state.shift;
-    state_.seconds = {0, before.evaluate + state.seconds.evaluate, before.factor + state.seconds.factor};
-    foreign_ = true;
+    if (result == StepResult::stepped) {
+      ++state_.iterations;
+      return std::nullopt;
+    }
     if (result == StepResult::exhausted) {
       const std::string worst = worst_of(violations(now_->t(), state.x, state.values));
       return Outcome{Status::stopped, method->ending(state) + "; " + worst + "."};
     }
-    if (result != StepResult::stepped) return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
-    ++state_.iterations;
-    return std::nullopt;
+    // What is told of the end is told of this point.
+    state_.multipliers = state.multipliers;
+    Workspace workspace;
+    linearise(now_->t(), now_->layout, state_.x, workspace, state_.linear, state_.active);
+    return outcome_of(result, now_->t(), now_->layout, state_, tolerance);
   });
 }
 
@@ -143,21 +152,25 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
   judged_ = true;
   int restarts = restarts_;
   for (int k = 0;; ++k) {
-    const bool last = k == limit;
+    const bool last = k >= limit;
     if (!last && watch.go_on && !watch.go_on()) {
       return stop("Interrupted after " + count() + ". " + standing());
     }
     const bool afresh = restarts_ != restarts;
     restarts = restarts_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
-    if (last && !reached(tolerance)) {
-      outcome_ = {Status::stopped, "Stopped after " + count() + ", as many as were allowed. " + standing()};
-      return;
-    }
+    const auto use_up = [&] { stop("Stopped after " + count() + ", as many as were allowed. " + standing()); };
+    if (last && !reached(tolerance)) return use_up();
+    std::optional<NewtonState> here;
+    if (last) here = state_;
     if (auto outcome = step(afresh)) {
       outcome_ = std::move(*outcome);
       outcome_.message += standing_elsewhere(tolerance);
       return;
+    }
+    if (here) {  // its conditions have changed sides: that it looked done is no reason to move it
+      state_ = std::move(*here);
+      return use_up();
     }
     if (watch.progress) watch.progress(record());
   }

@@ -51,11 +51,17 @@ Eigen::VectorXd Sqp92::soft_weights(const Eigen::VectorXd& c) const {
 }
 
 Sqp92State Sqp92::start(std::vector<double> x) {
-  Sqp92State state;
   settle_functionals(t_, x, workspace_);
+  const std::vector<double> zero(t_.rows.size(), 0.0);
+  return resume(std::move(x), zero, zero);
+}
+
+Sqp92State Sqp92::resume(std::vector<double> x, std::vector<double> multipliers, const std::vector<double>& weights) {
+  Sqp92State state;
   state.x = std::move(x);
-  state.multipliers.assign(t_.rows.size(), 0.0);
+  state.multipliers = std::move(multipliers);
   state.merit_weights = Eigen::VectorXd::Zero(layout_.size());
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) state.merit_weights[layout_.of_row[r]] = weights[r];
   state.linear = start_linearisation(layout_);
   {
     const Stopwatch watch(state.seconds.evaluate);

@@ -20,7 +20,6 @@
 namespace spacetime::optimizer {
 
 struct Sqp92State : Standing {
-  std::vector<double> multipliers;             // one a row; the sign is that of  gradient + A^T multipliers = 0
   Linearisation linear;                        // at x
   Eigen::VectorXd gradient;                    // of the whole objective, in KKT positions
   Eigen::VectorXd merit_weights;               // of violations, in KKT positions
@@ -35,6 +34,8 @@ class Sqp92 {
   Sqp92(const Transcription& transcription, const Layout& layout, bool linear_cg);
 
   Sqp92State start(std::vector<double> x);
+  // With functionals in x, multipliers and the merit's weights (one a row) as they were.
+  Sqp92State resume(std::vector<double> x, std::vector<double> multipliers, const std::vector<double>& weights);
   StepResult step(Sqp92State& state, double tolerance);  // stepped, converged, not_finite, singular or exhausted
 
   // What `exhausted` means here.

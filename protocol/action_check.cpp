@@ -17,11 +17,11 @@ class Check {
   explicit Check(const Declared& declared)
       : declared_(declared), problem_(declared.problem()), constraints_(declared.constraints()) {}
 
-  // One action by itself, after anything may have been refined; all statements have been declared.
-  void one(const Action& asked) {
+  // An action that is not in the list, after anything may have been refined; all statements have been declared.
+  void one(const Action& asked, const std::string& path) {
     now_ = std::numeric_limits<std::size_t>::max();
     refined_ = true;
-    std::visit([&](const auto& which) { action(which, {}); }, asked);
+    std::visit([&](const auto& which) { action(which, path); }, asked);
   }
 
   void all() {
@@ -229,9 +229,18 @@ class Check {
 
 void check_actions(const Declared& declared) { Check(declared).all(); }
 
+void check_action(const Declared& declared, const Action& action, const std::string& path) {
+  Check(declared).one(action, path);
+}
+
+void check_edits(const Declared& declared, std::span<const Action> edits, const std::string& path) {
+  Check check(declared);
+  for (std::size_t i = 0; i < edits.size(); ++i) check.one(edits[i], below(path, i));
+}
+
 std::optional<Fault> validate(const Action& action, const Problem& problem) {
   try {
-    Check(Declared(problem)).one(action);
+    check_action(Declared(problem), action, {});
   } catch (const Fault& fault) {
     return fault;
   }

@@ -29,9 +29,16 @@ std::optional<Fault> validate(const Problem& problem);
 // Nothing where the action can be performed on the problem, all of whose statements count; paths are the action's own.
 std::optional<Fault> validate(const Action& action, const Problem& problem);
 
+// Nothing where the numbers of a motion's checkpoint are what they can be, whatever the problem.
+std::optional<Fault> validate(const Checkpoint& checkpoint, const Motion& motion);
+
+// Nothing where the motion's checkpoint, if it has one, is of this problem, and what it refers to is there: sizes that
+// follow from values of constants are for who resumes.
+std::optional<Fault> validate(const Motion& motion, const Problem& problem);
+
 // Nothing where every trajectory has rising knots over the motion's time and as many coefficients as they ask for,
 // every number is finite (but for measures of a failed motion), names are unique, samples are as long as their times,
-// and bodies and their programs could stand in a problem.
+// bodies and their programs could stand in a problem, and a checkpoint's numbers have the signs that they must have.
 std::optional<Fault> validate(const Motion& motion);
 
 // A clamped cubic basis over [start, end]; `path` is the basis's own.

@@ -92,5 +92,8 @@ class Declared {
 // Throw the first Fault of what the problem's statements and actions mean.
 void check_statements(const Declared& declared);
 void check_actions(const Declared& declared);
+// Likewise of an action that is no part of it, all statements having taken effect, and of several in their order.
+void check_action(const Declared& declared, const Action& action, const std::string& path);
+void check_edits(const Declared& declared, std::span<const Action> edits, const std::string& path);
 
 }  // namespace spacetime

@@ -14,7 +14,6 @@ class History {
  public:
   struct Message {
     std::string method, params;  // params as JSON text
-    bool run = false;            // it iterates, or sets a motion: a later checkpoint makes it needless
   };
 
   // Takes note of a request that was answered with this result.
@@ -24,8 +23,6 @@ class History {
   const std::vector<Message>& messages() const { return messages_; }
 
  private:
-  void note_log(const Json& result);
-
   std::vector<Message> messages_;
 };
 

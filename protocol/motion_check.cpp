@@ -176,6 +176,9 @@ std::optional<Fault> validate(const Motion& motion) {
   }
   if (auto fault = validate_minima(motion)) return fault;
   if (auto fault = validate_bodies(motion)) return fault;
+  if (motion.checkpoint) {
+    if (auto fault = validate(*motion.checkpoint, motion)) return fault;
+  }
   return validate_record(motion, failed);
 }
 

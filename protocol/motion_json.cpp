@@ -1,10 +1,10 @@
 #include "protocol/motion_json.h"
 
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "protocol/check.h"
+#include "protocol/checkpoint_json.h"
+#include "protocol/measure.h"
 #include "protocol/program_json.h"
 
 namespace spacetime {
@@ -12,46 +12,7 @@ namespace {
 
 constexpr std::array statuses{Status::converged, Status::stopped, Status::infeasible, Status::failed};
 
-using Named = std::vector<std::pair<std::string, double>>;
 using Rows = std::vector<std::vector<double>>;
-
-// What was measured along the motion: a number, or null where the motion failed and there is none.
-struct Measures {
-  Writer& to;
-  bool failed;
-
-  void value(double measure) const {
-    if (failed && !std::isfinite(measure)) {
-      to.null();
-    } else {
-      to.number(measure);
-    }
-  }
-  void member(std::string_view name, double measure) const {
-    to.key(name);
-    value(measure);
-  }
-};
-
-double measure_from(const Node& node) {
-  return node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.number();
-}
-
-void member(Writer& to, std::string_view name, const Named& numbers) {
-  to.key(name);
-  to.object([&] {
-    for (const auto& [key, number] : numbers) to.member(key, number);
-  });
-}
-
-Named named(const Node& node, double (*value)(const Node&)) {
-  Named result;
-  node.members([&](const std::string& name, const Node& number) { result.emplace_back(name, value(number)); });
-  return result;
-}
-Named named_numbers(const Node& node) {
-  return named(node, [](const Node& number) { return number.number(); });
-}
 
 void member(const Measures& measures, std::string_view name, const std::map<std::string, Rows>& tables) {
   auto& to = measures.to;
@@ -117,21 +78,6 @@ Violation violation_from(const Node& node) {
   return violation;
 }
 
-void write(Writer& to, const Trajectory& dof) {
-  to.object([&] {
-    to.member("name", dof.name);
-    to.key("basis");
-    write(to, dof.basis);
-    to.key("coefficients");
-    to.numbers(dof.coefficients);
-  });
-}
-
-Trajectory dof_from(const Node& node) {
-  node.object({"name", "basis", "coefficients"});
-  return {node["name"].string(), basis_from(node["basis"]), node["coefficients"].numbers()};
-}
-
 void write(const Measures& measures, const Samples& samples) {
   auto& to = measures.to;
   to.object(
@@ -187,7 +133,7 @@ void write(Writer& to, const Minimum& minimum) {
 Minimum minimum_from(const Node& node) {
   node.object({"objective", "starts", "dofs"});
   return {node["objective"].number(), node["starts"].each([](const Node& start) { return start.integer(); }),
-          node["dofs"].each(dof_from)};
+          node["dofs"].each(trajectory_from)};
 }
 
 Status status_from(const Node& node) {
@@ -254,6 +200,10 @@ void write(Writer& to, const Motion& motion) {
               motion.bodies, [&](const Body& body) { write(to, body); }, Set::in_lines);
           write_programs(to, motion.programs);
         }
+        if (motion.checkpoint) {
+          to.key("checkpoint");
+          write(to, *motion.checkpoint, measures.failed);
+        }
       },
       Set::in_lines);
 }
@@ -269,7 +219,7 @@ Motion motion_from(const Node& node) {
   node["format"].choice(formats);
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
-              {"samples", "record", "minima", "bodies", "programs"});
+              {"samples", "record", "minima", "bodies", "programs", "checkpoint"});
   Motion motion;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
@@ -289,7 +239,7 @@ Motion motion_from(const Node& node) {
   violation.object({"max", "constraints"});
   motion.violation = measure_from(violation["max"]);
   motion.violations = violation["constraints"].each(violation_from);
-  motion.dofs = node["dofs"].each(dof_from);
+  motion.dofs = node["dofs"].each(trajectory_from);
   motion.constants = named_numbers(node["constants"]);
   motion.parameters = named_numbers(node["parameters"]);
   if (const auto samples = node.find("samples")) motion.samples = samples_from(*samples);
@@ -301,6 +251,7 @@ Motion motion_from(const Node& node) {
   } else if (const auto programs = node.find("programs")) {
     node["bodies"];  // is missing
   }
+  if (const auto checkpoint = node.find("checkpoint")) motion.checkpoint = checkpoint_from(*checkpoint);
   return motion;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "common/fnv.h"
 #include "protocol/action_json.h"
 #include "protocol/check.h"
 #include "protocol/program_json.h"
@@ -269,6 +270,12 @@ Problem problem_from(const Node& node) {
   problem.bodies = node["bodies"].each(body_from);
   problem.actions = node["actions"].each(action_from);
   return problem;
+}
+
+std::string fingerprint(const Problem& problem) {
+  Fnv1a sum;
+  sum.text(write(problem));
+  return sum.digits();
 }
 
 Problem read_problem(std::string_view json) {

@@ -25,4 +25,7 @@ Problem read_problem(std::string_view json);
 // The form alone, unchecked.  What the schema refuses, this refuses.
 Problem problem_from(const Node& node);
 
+// The 128-bit FNV-1a hash, as 32 hexadecimal digits, of the document that the problem makes: programs, values, places.
+std::string fingerprint(const Problem& problem);
+
 }  // namespace spacetime

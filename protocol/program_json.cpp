@@ -156,4 +156,19 @@ Body body_from(const Node& node) {
           node["size"].each(quantity_from), node["program"].string(), node["outputs"].integers()};
 }
 
+void write(Writer& to, const Trajectory& dof) {
+  to.object([&] {
+    to.member("name", dof.name);
+    to.key("basis");
+    write(to, dof.basis);
+    to.key("coefficients");
+    to.numbers(dof.coefficients);
+  });
+}
+
+Trajectory trajectory_from(const Node& node) {
+  node.object({"name", "basis", "coefficients"});
+  return {node["name"].string(), basis_from(node["basis"]), node["coefficients"].numbers()};
+}
+
 }  // namespace spacetime

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/files.h"
 #include "protocol/motion_json.h"
 #include "tests/process/process.h"
 
@@ -83,6 +84,55 @@ TEST(Solve, CtrlCKeepsTheMotionReached) {
   EXPECT_EQ(motion.status, Status::stopped);
   EXPECT_GE(motion.iterations, 5);
   EXPECT_NE(motion.message.find("Interrupted"), std::string::npos) << motion.message;
+}
+
+// The document without its times.
+std::string timeless(const std::string& document) {
+  Motion motion = read_motion(document);
+  motion.seconds = {};
+  for (IterationRecord& record : motion.record) record.seconds = 0;
+  return write(motion);
+}
+
+TEST(Solve, IsResumedToTheSameBytes) {
+  const std::string scene = text_of("examples/throw_regularised.scene"), part = scratch("part.motion.json");
+  const std::vector<std::string> options{"-q", "--record", "--checkpoint"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), options.begin(), options.end());
+    return solve_scene(scene, more);
+  };
+  const Result whole = with({});
+  ASSERT_EQ(whole.code, 0) << whole.err;
+  for (const char* iterations : {"0", "1", "7", "16"}) {
+    EXPECT_EQ(with({"-o", part, "--iterations", iterations}).code, 2);
+    EXPECT_EQ(timeless(with({"--start", part}).out), timeless(whole.out)) << iterations;
+  }
+}
+
+TEST(Solve, IsResumedAfterAnInterrupt) {
+  // It would go on for long, so that what is interrupted is never the end.
+  const std::string problem = run("spacetime-symbolic", {"compile", "-"}, text_of("tests/wire/long_throw.scene")).out;
+  const std::string part = scratch("interrupted.motion.json");
+  const Result interrupted =
+      run("spacetime-optimizer", {"solve", "--checkpoint", "--tolerance", "1e-300", "-o", part}, problem, "\n        5 ");
+  ASSERT_EQ(interrupted.code, 2) << interrupted.err;
+  const int done = read_motion(read_text(part)).iterations;
+  const std::string all = std::to_string(done + 5);
+  const std::vector<std::string> rest{"solve", "-q", "--checkpoint", "--tolerance", "1e-300", "--iterations", all};
+  auto resume = rest;
+  resume.insert(resume.end(), {"--start", part});
+  EXPECT_EQ(timeless(run("spacetime-optimizer", resume, problem).out),
+            timeless(run("spacetime-optimizer", rest, problem).out));
+}
+
+TEST(Solve, RefusesACheckpointOfAnotherProblem) {
+  const std::string scene = text_of("examples/double_integrator.scene"), file = scratch("one.motion.json");
+  ASSERT_EQ(solve_scene(scene, {"-q", "--checkpoint", "-o", file}).code, 0);
+  const Result other = solve_scene(scene + "\n# another text\nconstant other = 1\n", {"-q", "--start", file});
+  EXPECT_EQ(other.code, 1);
+  EXPECT_NE(other.err.find("/checkpoint/problem"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("--anew"), std::string::npos) << other.err;
+  EXPECT_EQ(solve_scene(scene + "\nconstant other = 1\n", {"-q", "--anew", "--start", file}).code, 0);
 }
 
 TEST(Solve, StartsFromAMotion) {

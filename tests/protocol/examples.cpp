@@ -276,6 +276,25 @@ Motion rich_motion() {
   motion.bodies = {{Body::Shape::sphere, "ball", {{0, size, 0}}, program, outputs},
                    {Body::Shape::none, "frame", {}, program, outputs}};
   motion.programs = problem.programs;
+  Checkpoint checkpoint;
+  checkpoint.problem = "0123456789abcdef0123456789abcdef";
+  checkpoint.progress = {2, 12};
+  checkpoint.declared = 2;
+  checkpoint.edits = {SetConstant{"g", {1.62, {}, 0}}, Disable{"goal"}};
+  checkpoint.window = {Interval{{0.5, {}, 0}, {1.5, {}, 0}}, {"ball.X"}};
+  checkpoint.damping = {{"ball.X", 0.125}};
+  checkpoint.shakes = 3;
+  checkpoint.start = {{motion.dofs[1]}, {{"speed", 2}}};
+  checkpoint.judged = true;
+  checkpoint.functionals = {5.5, -0.5};
+  checkpoint.outside = {0.75, {0.5, 0}};
+  checkpoint.step = 0.25;
+  checkpoint.last_shift = 1e-3;
+  checkpoint.pivoted = 1;
+  checkpoint.newton = {1e-3,   {1, 2}, {3e-4, 5e-4}, {0.5}, {0.25, 0.125}, true, {1, 0}, {0, 3}, {{1, 2}, {0.5, 2.5}},
+                       1.25e4, 1.25,   0.01,         0.6,   0.5,           1e-8};
+  checkpoint.sqp92 = {{1, -2}, {1, 2}};
+  motion.checkpoint = checkpoint;
   return motion;
 }
 

@@ -120,6 +120,7 @@ TEST(MotionDocument, HasTheAgreedMembers) {
   motion.record.clear();
   motion.bodies.clear();
   motion.programs.clear();
+  motion.checkpoint.reset();
   motion.dofs.resize(1);
   EXPECT_EQ(write(motion), R"({
  "format": "spacetime-motion/1",

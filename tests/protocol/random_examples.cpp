@@ -407,6 +407,43 @@ class RandomProblem {
   int actions_ = 0;           // how many there will be
 };
 
+Checkpoint random_checkpoint(std::mt19937& random, const Motion& motion) {
+  const auto value = [&] { return random_number(random); };
+  const auto size = [&] { return std::abs(random_number(random)); };
+  const auto list = [&](auto element) {
+    std::vector<decltype(element())> result;
+    for (int i = below(random, 4); i > 0; --i) result.push_back(element());
+    return result;
+  };
+  Checkpoint checkpoint;
+  checkpoint.problem = random_name(random, "problem", 1);
+  if (coin(random)) checkpoint.progress = {below(random, 9), below(random, motion.iterations + 1)};
+  checkpoint.declared = below(random, 9);
+  checkpoint.edits = list([&]() -> Action { return Enable{random_name(random, "statement", 1)}; });
+  if (coin(random)) checkpoint.window = {std::nullopt, {random_name(random, "q", 1)}};
+  if (coin(random)) checkpoint.damping = {{random_name(random, "q", 1), 0.5}};
+  checkpoint.shakes = below(random, 9);
+  if (coin(random)) checkpoint.start = {motion.dofs, motion.parameters};
+  checkpoint.judged = coin(random);
+  checkpoint.functionals = list(value);
+  if (coin(random)) checkpoint.outside = {value(), list(value)};
+  checkpoint.step = value();
+  checkpoint.last_shift = value();
+  checkpoint.pivoted = below(random, 9);
+  const auto flag = [&] { return below(random, 2); };
+  checkpoint.newton = {size(),     list(size), list(size),
+                       list(size), list(size), coin(random),
+                       list(flag), list(flag), list([&] { return Checkpoint::Newton::Entry{value(), value()}; }),
+                       size(),     size(),     size(),
+                       size(),     size(),     1.5};
+  if (coin(random)) {
+    checkpoint.sqp92 = {list(value), list(size)};
+  } else if (coin(random)) {
+    checkpoint.bfgs = {list(value)};
+  }
+  return checkpoint;
+}
+
 }  // namespace
 
 Problem random_problem(std::uint32_t seed) { return RandomProblem(seed).make(); }
@@ -451,6 +488,7 @@ Motion random_motion(std::uint32_t seed) {
                              std::vector<int>(12, 3)});
     motion.programs = std::move(problem.programs);
   }
+  if (coin(random)) motion.checkpoint = random_checkpoint(random, motion);
   if (!coin(random)) return motion;
   Samples samples;
   for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());

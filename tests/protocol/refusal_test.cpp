@@ -292,5 +292,73 @@ TEST(Check, FindsWhatNoDocumentCanHold) {
   EXPECT_EQ(fault_of([&](Problem& p) { p.keyframes[0].place.line = -1; }), "/keyframes/0/line");
 }
 
+TEST(MotionRefuses, WrongCheckpoints) {
+  const auto read = [](const std::string& text) { return read_motion(text); };
+  expect_refusals(
+      write(examples::rich_motion()),
+      {
+          {"/checkpoint", "[]", nullptr, "expected an object, found a list of 0"},
+          {"/checkpoint/problem", none, "/checkpoint", R"(the member "problem" is missing)"},
+          {"/checkpoint/surplus", "1", nullptr, "unknown member"},
+          {"/checkpoint/progress/action", "-1", nullptr, "found -1"},
+          {"/checkpoint/progress/iterations", "62", nullptr, "must be from 0 to 61"},
+          {"/checkpoint/edits/0/action", R"("jump")", nullptr, R"(found "jump")"},
+          {"/checkpoint/window/action", R"("reset")", "/checkpoint/window/from", "unknown member"},
+          {"/checkpoint/window", R"({"action": "reset"})", "/checkpoint/window/action", R"(expected "window")"},
+          {"/checkpoint/damping/ball.X", "0", nullptr, "must be positive"},
+          {"/checkpoint/shakes", "2000000000", nullptr, "must be from 0 to 1000000000"},
+          {"/checkpoint/start/dofs/0/basis/knots/1", "1", nullptr, "the first four knots are the start of the time"},
+          {"/checkpoint/start/dofs/0/coefficients", "[1]", nullptr, "must be four fewer than knots"},
+          {"/checkpoint/judged", "1", nullptr, "expected true or false"},
+          {"/checkpoint/functionals/1", "null", nullptr, "expected a number, found null"},
+          {"/checkpoint/outside/objective", "null", nullptr, "must be finite"},
+          {"/checkpoint/newton/slacks/1", "-1", nullptr, "must not be negative"},
+          {"/checkpoint/newton/slacks/1", "null", nullptr, "must be finite"},
+          {"/checkpoint/newton/active/0", "2", nullptr, "must be from 0 to 1"},
+          {"/checkpoint/newton/switches/0", "128", nullptr, "must be from 0 to 127"},
+          {"/checkpoint/newton/filter/0", "[1]", nullptr, "expected a list of 2 numbers"},
+          {"/checkpoint/newton/damping", "0", nullptr, "must be positive while the violation is reduced"},
+          {"/checkpoint/newton/radius", "-0.1", nullptr, "must not be negative"},
+          {"/checkpoint/sqp92/weights/0", "-1", nullptr, "must not be negative"},
+          {"/checkpoint/bfgs", R"({"inverse": []})", nullptr, "only one method can have led here"},
+      },
+      read);
+}
+
+TEST(MotionRefuses, CheckpointsOfOtherProblems) {
+  Problem problem = examples::rich_problem();
+  Motion motion;
+  motion.start = problem.start;
+  motion.end = problem.end;
+  motion.iterations = 12;
+  for (const Dof& dof : problem.dofs) motion.dofs.push_back({dof.name, dof.basis, {}});
+  for (const Parameter& parameter : problem.parameters) motion.parameters.emplace_back(parameter.name, 0);
+  motion.checkpoint.emplace();
+  motion.checkpoint->problem = fingerprint(problem);
+  const auto expect = [&](const std::string& path, const std::string& words, auto change) {
+    SCOPED_TRACE(path);
+    Motion changed = motion;
+    change(changed);
+    const auto fault = validate(changed, problem);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->path, path);
+    EXPECT_NE(fault->message.find(words), std::string::npos) << fault->message;
+  };
+  EXPECT_FALSE(validate(motion, problem));
+  expect("/dofs", "use the motion without its checkpoint", [](Motion& m) { m.dofs.pop_back(); });
+  expect("/dofs", "where the motion has 'other'", [](Motion& m) { m.dofs[0].name = "other"; });
+  expect("/parameters", "use the motion without its checkpoint", [](Motion& m) { m.parameters.clear(); });
+  expect("/time", "is not the problem's", [](Motion& m) { m.end += 1; });
+  expect("/checkpoint/edits/1/name", "there is no constraint or term", [&](Motion& m) {
+    m.checkpoint->edits = {SetConstant{problem.constants[0].name, {2, {}, 0}}, Disable{"nothing"}};
+  });
+  expect("/checkpoint/window/dofs/0", "nobody", [](Motion& m) { m.checkpoint->window.dofs = {"nobody"}; });
+  expect("/checkpoint/progress/action", "must be from 0 to", [](Motion& m) { m.checkpoint->progress = {1000, 0}; });
+  for (Constant& constant : problem.constants) {
+    if (constant.value.program.empty()) constant.value.number += 1;
+  }
+  expect("/checkpoint/problem", "another version of this one", [](Motion&) {});
+}
+
 }  // namespace
 }  // namespace spacetime

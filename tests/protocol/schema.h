@@ -23,8 +23,11 @@ class Schema {
  public:
   explicit Schema(const std::string& name) {
     const auto document = load_schema(name);
+    const auto fetch = [](const std::string& other) { return new nlohmann::json(load_schema(other)); };
     valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema_);
+        .populateSchema<valijson::adapters::NlohmannJsonAdapter>(valijson::adapters::NlohmannJsonAdapter(document),
+                                                                 schema_, fetch,
+                                                                 [](const nlohmann::json* fetched) { delete fetched; });
   }
   bool accepts(const nlohmann::json& document) const {
     valijson::Validator validator(valijson::Validator::kStrongTypes);

@@ -233,38 +233,76 @@ class Runs(unittest.TestCase):
         with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
             session, later = Session(daemon), Session(another)
             session.load(self.problem)
-            window = {"action": "window", "from": 0.2, "to": 1.5}
-            moved = {"action": "set", "constant": "BasketX", "value": 2.8}
-            session.do(**window)
+            session.do(action="window", **{"from": 0.2, "to": 1.5})
+            session.do(action="damp", limit=0.1, dofs=["arm.elbow"])
             session.do(action="iterate", iterations=9)
+            session.do(action="refine", tolerance=1e-3)  # which spans it halves depends on the motion
+            session.do(action="iterate", iterations=2)
             checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
-            later.load(self.problem)
-            later.do(**window)
+            later.load(self.problem)  # and nothing else: edits, window, damping and knots are in the checkpoint
             later.peer.ask("motion/set", motion=checkpoint)
-            for one in (session, later):  # edits carry multipliers over: there must be the same in both
-                one.do(**moved)
+            for one in (session, later):
                 one.do(action="iterate", iterations=3)
+                one.do(action="set", constant="BasketX", value=2.8)
                 one.do(action="refine", dofs=["arm.elbow"])
                 one.do(action="window")
                 one.do(action="solve")
             self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
 
-    def test_a_checkpoint_brings_its_knots(self):
-        with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
-            session, later = Session(daemon), Session(another)
-            refine = {"action": "refine", "tolerance": 1e-3}  # which spans it halves depends on the motion
+    def test_a_checkpoint_undoes_what_came_after_it(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
             session.load(self.problem)
-            session.do(action="iterate", iterations=9)
-            session.do(**refine)
+            session.do(action="iterate", iterations=5)
             checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
-            later.load(self.problem)
-            later.do(**refine)
-            self.assertNotEqual([dof["basis"] for dof in later.motion()["dofs"]],
-                                [dof["basis"] for dof in checkpoint["dofs"]])
-            later.peer.ask("motion/set", motion=checkpoint)
-            for one in (session, later):
-                one.do(action="iterate", iterations=5)
-            self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
+            ends = []
+            for _ in range(2):
+                session.do(action="iterate", iterations=6)
+                ends.append(without_seconds(session.motion()))
+                session.do(action="set", constant="BasketX", value=2.8)
+                session.do(action="window", **{"from": 0.2, "to": 1.5})
+                session.do(action="solve", method="sqp92", iterations=3)
+                session.peer.ask("motion/set", motion=checkpoint)
+            self.assertEqual(ends[0], ends[1])
+            self.assertEqual(ends[0]["iterations"], 11)
+
+    def test_a_checkpoint_during_a_run_disturbs_nothing(self):
+        with peer.Daemon("optimizer", "unix") as daemon, peer.Daemon("optimizer", "unix") as another:
+            for method in ("newton", "sqp92"):
+                session, later, alone = Session(daemon), Session(another), Session(another)
+                for one in (session, later, alone):
+                    one.load(self.problem)
+                solve = {"action": "solve", "method": method, "iterations": 60, "tolerance": 1e-300}
+                run = session.peer.start("action/do", action=solve)
+                answer = session.peer.ask("motion/get", checkpoint=True)
+                done = answer["iteration"]
+                self.assertEqual(sum(part["iterations"] for part in answer["log"]), done)
+                session.log += answer["log"]
+                outcome = session.note(session.peer.answer(run))
+                alone.do(**solve)
+                self.assertEqual(without_seconds(session.motion()), without_seconds(alone.motion()))
+                later.peer.ask("motion/set", motion=answer["motion"])
+                for action in outcome["log"]:
+                    later.do(**action)
+                self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
+                self.assertEqual(sum(part["iterations"] for part in session.log), 60)
+
+    def test_a_checkpoint_of_another_problem_is_refused(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            session.do(action="iterate", iterations=2)
+            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            other = dict(self.problem, plots=[])
+            session.peer.ask("problem/update", problem=other)
+            fault = session.peer.answer(session.peer.start("motion/set", motion=checkpoint))["error"]
+            self.assertEqual(fault["data"]["path"], "/motion/checkpoint/problem")
+            checkpoint["checkpoint"]["newton"]["active"] = [1]
+            session.peer.ask("problem/update", problem=self.problem)
+            fault = session.peer.answer(session.peer.start("motion/set", motion=checkpoint))["error"]
+            self.assertEqual(fault["data"]["path"], "/motion/checkpoint/newton/active")
+            del checkpoint["checkpoint"]
+            session.peer.ask("motion/set", motion=checkpoint)
 
 
 if __name__ == "__main__":

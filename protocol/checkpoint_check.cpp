@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "protocol/check.h"
+#include "protocol/declared.h"
+#include "protocol/path.h"
+#include "protocol/problem_json.h"
+
+namespace spacetime {
+namespace {
+
+constexpr int most_shakes = 1'000'000'000;  // seeds are integers
+constexpr int most_switches = 127;
+
+// Throws what it finds.  Of a motion that failed numbers may be missing.
+struct Check {
+  bool failed;
+
+  void number(double value, const std::string& path, bool may_lack = false) const {
+    if (!std::isfinite(value) && !(failed && may_lack)) fail(path, "must be finite");
+  }
+  void not_negative(double value, const std::string& path, bool may_lack = false) const {
+    number(value, path, may_lack);
+    if (value < 0) fail(path, "must not be negative");
+  }
+  void numbers(const std::vector<double>& values, const std::string& path, bool may_lack = false) const {
+    for (std::size_t i = 0; i < values.size(); ++i) number(values[i], below(path, i), may_lack);
+  }
+  void none_negative(const std::vector<double>& values, const std::string& path, bool may_lack = false) const {
+    for (std::size_t i = 0; i < values.size(); ++i) not_negative(values[i], below(path, i), may_lack);
+  }
+  static void count(int value, int most, const std::string& path) {
+    if (value < 0 || value > most) fail(path, "must be from 0 to " + std::to_string(most));
+  }
+  static void counts(const std::vector<int>& values, int most, const std::string& path) {
+    for (std::size_t i = 0; i < values.size(); ++i) count(values[i], most, below(path, i));
+  }
+};
+
+void check(const Checkpoint::Newton& newton, const Check& all, const std::string& path) {
+  all.not_negative(newton.mu, path + "/mu");
+  all.none_negative(newton.slacks, path + "/slacks", true);
+  all.none_negative(newton.multipliers, path + "/multipliers", true);
+  all.none_negative(newton.lower, path + "/lower", true);
+  all.none_negative(newton.upper, path + "/upper", true);
+  all.counts(newton.active, 1, path + "/active");
+  all.counts(newton.switches, most_switches, path + "/switches");
+  for (std::size_t i = 0; i < newton.filter.size(); ++i) {
+    all.number(newton.filter[i].violation, below(path + "/filter", i) + "/0");
+    all.number(newton.filter[i].objective, below(path + "/filter", i) + "/1");
+  }
+  all.not_negative(newton.filter_limit, path + "/filter_limit", true);
+  all.not_negative(newton.most_violation, path + "/most_violation", true);
+  all.not_negative(newton.shift, path + "/shift");
+  all.not_negative(newton.radius, path + "/radius");
+  all.not_negative(newton.restore_from, path + "/restore_from");
+  all.not_negative(newton.damping, path + "/damping");
+  if (newton.restore_from > 0 && newton.damping == 0) {
+    fail(path + "/damping", "must be positive while the violation is reduced");
+  }
+}
+
+void check(const Checkpoint::Start& start, const Check& all, const std::string& path) {
+  Names dofs, parameters;
+  for (std::size_t i = 0; i < start.dofs.size(); ++i) {
+    const auto& [name, basis, coefficients] = start.dofs[i];
+    const auto own = below(path + "/dofs", i);
+    check_name(name, own + "/name", dofs);
+    const auto& knots = basis.knots;
+    const double from = knots.empty() ? 0 : knots.front(), to = knots.empty() ? 0 : knots.back();
+    if (auto fault = validate(basis, from, to, own + "/basis")) throw Fault(*std::move(fault));
+    if (coefficients.size() + 4 != knots.size()) fail(own + "/coefficients", "must be four fewer than knots");
+    all.numbers(coefficients, own + "/coefficients");
+  }
+  for (const auto& [name, value] : start.parameters) {
+    check_name(name, below(path + "/parameters", name), parameters);
+    all.number(value, below(path + "/parameters", name));
+  }
+}
+
+void check(const Checkpoint& checkpoint, const Motion& motion) {
+  const std::string path = "/checkpoint";
+  const Check all{motion.status == Status::failed};
+  if (const auto& progress = checkpoint.progress) {
+    if (progress->action < 0) fail(path + "/progress/action", "must not be negative");
+    all.count(progress->iterations, motion.iterations, path + "/progress/iterations");
+  }
+  if (checkpoint.declared < 0) fail(path + "/declared", "must not be negative");
+  Names damped;
+  for (const auto& [name, limit] : checkpoint.damping) {
+    const auto own = below(path + "/damping", name);
+    check_name(name, own, damped);
+    all.number(limit, own);
+    if (!(limit > 0)) fail(own, "must be positive");
+  }
+  all.count(checkpoint.shakes, most_shakes, path + "/shakes");
+  if (checkpoint.start) check(*checkpoint.start, all, path + "/start");
+  all.numbers(checkpoint.functionals, path + "/functionals");
+  if (const auto& outside = checkpoint.outside) {
+    all.number(outside->objective, path + "/outside/objective", true);
+    all.numbers(outside->functionals, path + "/outside/functionals", true);
+  }
+  all.number(checkpoint.step, path + "/step");
+  all.number(checkpoint.last_shift, path + "/shift");
+  if (checkpoint.pivoted < 0) fail(path + "/pivoted", "must not be negative");
+  check(checkpoint.newton, all, path + "/newton");
+  if (checkpoint.sqp92 && checkpoint.bfgs) fail(path + "/bfgs", "only one method can have led here");
+  if (checkpoint.sqp92) {
+    all.numbers(checkpoint.sqp92->multipliers, path + "/sqp92/multipliers");
+    all.none_negative(checkpoint.sqp92->weights, path + "/sqp92/weights");
+  }
+  if (checkpoint.bfgs) all.numbers(checkpoint.bfgs->inverse, path + "/bfgs/inverse");
+}
+
+void check_names(const auto& found, const auto& expected, const std::string& path, auto name_of_found) {
+  if (found.size() != expected.size()) {
+    fail(path, "there are " + std::to_string(found.size()) + ", but the problem has " +
+                   std::to_string(expected.size()) + "; use the motion without its checkpoint");
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (name_of_found(found[i]) == expected[i].name) continue;
+    fail(path, "the problem has '" + expected[i].name + "' where the motion has '" + name_of_found(found[i]) +
+                   "'; use the motion without its checkpoint");
+  }
+}
+
+void check(const Motion& motion, const Problem& problem) {
+  const Checkpoint& checkpoint = *motion.checkpoint;
+  if (checkpoint.problem != fingerprint(problem)) {
+    fail("/checkpoint/problem",
+         "the checkpoint is of another problem, or of another version of this one, and cannot be resumed here; use the "
+         "motion without its checkpoint");
+  }
+  if (motion.start != problem.start || motion.end != problem.end) fail("/time", "is not the problem's");
+  check_names(motion.dofs, problem.dofs, "/dofs", [](const Trajectory& dof) { return dof.name; });
+  check_names(motion.parameters, problem.parameters, "/parameters", [](const auto& named) { return named.first; });
+  const auto actions = static_cast<int>(problem.actions.size());
+  if (checkpoint.progress)
+    Check::count(checkpoint.progress->action, std::max(1, actions), "/checkpoint/progress/action");
+  const Declared declared(problem);
+  check_edits(declared, checkpoint.edits, "/checkpoint/edits");
+  check_action(declared, checkpoint.window, "/checkpoint/window");
+}
+
+template <class... Values>
+std::optional<Fault> found(const Values&... values) {
+  try {
+    check(values...);
+  } catch (const Fault& fault) {
+    return fault;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Fault> validate(const Checkpoint& checkpoint, const Motion& motion) { return found(checkpoint, motion); }
+
+std::optional<Fault> validate(const Motion& motion, const Problem& problem) {
+  if (!motion.checkpoint) return std::nullopt;
+  return found(motion, problem);
+}
+
+}  // namespace spacetime
