@@ -48,8 +48,8 @@ std::vector<Event> Screen::frame(const State& state, double seconds) {
   if (!styled_ || dark_ != state.dark) {
     dark_ = state.dark;
     styled_ = true;
-    memory_.look = look_of(dark_);
-    apply(memory_.look, memory_.scale);
+    memory_.colours = colours_of(dark_);
+    apply(memory_.colours, memory_.scale);
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
@@ -58,7 +58,7 @@ std::vector<Event> Screen::frame(const State& state, double seconds) {
   ImGui::Render();
   target_.bind();
   glViewport(0, 0, target_.width(), target_.height());
-  glClearColor(memory_.look.ground.x, memory_.look.ground.y, memory_.look.ground.z, 1);
+  glClearColor(memory_.colours.ground.x, memory_.colours.ground.y, memory_.colours.ground.z, 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   return events;

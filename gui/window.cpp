@@ -82,8 +82,8 @@ int run_window(Hub& hub, float scale) {
     if (!styled || dark != state.dark) {
       styled = true;
       dark = state.dark;
-      memory.look = look_of(dark);
-      apply(memory.look, scale);
+      memory.colours = colours_of(dark);
+      apply(memory.colours, scale);
     }
     std::vector<Event> events;
     Ui ui{state, memory, events};
@@ -100,7 +100,7 @@ int run_window(Hub& hub, float scale) {
     glfwGetFramebufferSize(shell.window, &width, &height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, width, height);
-    glClearColor(memory.look.ground.x, memory.look.ground.y, memory.look.ground.z, 1);
+    glClearColor(memory.colours.ground.x, memory.colours.ground.y, memory.colours.ground.z, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glfwSwapBuffers(shell.window);

@@ -79,7 +79,7 @@ std::vector<Curve> curves_of(const Ui& ui) {
     for (std::size_t e = 0; e < ui.residuals().size(); ++e) {
       const Equation& equation = ui.question().equations[e];
       if (!s.selection.constraint.empty() && s.selection.constraint != equation.name) continue;
-      Curve curve{equation.name, ui.look().curves[out.size() % 8], {}, {}, 0, false, true};
+      Curve curve{equation.name, ui.colours().curves[out.size() % 8], {}, {}, 0, false, true};
       for (const Residual& r : ui.residuals()[e]) {
         curve.times.push_back(r.time);
         curve.values.push_back(r.value);
@@ -163,8 +163,8 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
       const ImVec2 at{frame.x(times[i]), frame.y(mine ? m.dragged_value : dof.coefficients[i])};
       const float away = std::hypot(mouse.x - at.x, mouse.y - at.y);
       const bool hot = mine || (hovered && m.dragged.empty() && away < 7 * ui.memory.scale);
-      list.AddCircleFilled(at, (hot ? 5.0F : 3.0F) * ui.memory.scale, packed(hot ? ui.look().text : ui.look().panel),
-                           12);
+      list.AddCircleFilled(at, (hot ? 5.0F : 3.0F) * ui.memory.scale,
+                           packed(hot ? ui.colours().text : ui.colours().panel), 12);
       list.AddCircle(at, (hot ? 5.0F : 3.0F) * ui.memory.scale, colour, 12, 1.5F);
       ui.memory.places[fmt::format("control {} {}", dof.name, i)] = {at.x - 3, at.y - 3, 6, 6};
       if (hot && m.dragged.empty()) {
@@ -245,7 +245,7 @@ void draw_curves(Ui& ui, float left, float right) {
   if (m.high > m.low) frame.bottom = m.low, frame.top = m.high;
   if (ImGui::IsItemHovered()) zoom(m, frame);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  draw_scales(list, frame, ui.look());
+  draw_scales(list, frame, ui.colours());
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
   for (const Curve& curve : curves) draw(list, frame, curve, ui.memory.scale);
   if (s.curves && m.show == CurvesMemory::Show::curves) draw_controls(ui, list, frame);
@@ -259,7 +259,7 @@ void draw_curves(Ui& ui, float left, float right) {
     x += ImGui::CalcTextSize(named.c_str()).x + 12;
   }
   if (curves.empty())
-    list.AddText({x, frame.corner.y + 6}, packed(ui.look().faint),
+    list.AddText({x, frame.corner.y + 6}, packed(ui.colours().faint),
                  m.show == CurvesMemory::Show::curves ? "Select degrees of freedom or expressions to see their curves."
                                                       : "No constraint has instances in time.");
 }

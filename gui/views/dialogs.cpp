@@ -45,6 +45,25 @@ const std::vector<Example>& examples() {
   return all;
 }
 
+// Sessions that ended without being saved, by a crash or a power cut.
+void draw_left_behind(Ui& ui) {
+  if (ui.state.left.empty()) return;
+  ImGui::PushFont(ui.memory.fonts.strong);
+  ImGui::TextUnformatted("Not saved when it ended");
+  ImGui::PopFont();
+  for (const LeftBehind& left : ui.state.left) {
+    const std::string name = left.file.empty() ? "a scene without a file" : std::string(fs::path(left.file).filename());
+    if (ImGui::Selectable(fmt::format("Go on with {}##{}", name, left.journal).c_str())) {
+      leave_for(ui, left.journal);
+      ui.memory.welcome = false;
+      ImGui::CloseCurrentPopup();
+    }
+    ui.here("recover " + name);
+    ui.help("Everything that was done in it comes back, undo included.");
+  }
+  ImGui::Spacing();
+}
+
 void draw_welcome(Ui& ui) {
   if (ui.memory.welcome) ImGui::OpenPopup("Welcome");
   const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
@@ -59,6 +78,7 @@ void draw_welcome(Ui& ui) {
       "find it. Then change a weight, drag the basket, key a pose, and run again.");
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
+  draw_left_behind(ui);
   ImGui::PushFont(ui.memory.fonts.strong);
   ImGui::TextUnformatted("Begin with an example");
   ImGui::PopFont();
@@ -76,9 +96,9 @@ void draw_welcome(Ui& ui) {
     }
     ui.here("example " + example.name);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddText(ui.memory.fonts.strong, ImGui::GetFontSize(), {at.x + 8, at.y + 3}, packed(ui.look().text),
+    list.AddText(ui.memory.fonts.strong, ImGui::GetFontSize(), {at.x + 8, at.y + 3}, packed(ui.colours().text),
                  example.name.c_str());
-    list.AddText(nullptr, 0, {at.x + 8, at.y + 5 + ImGui::GetTextLineHeight()}, packed(ui.look().faint),
+    list.AddText(nullptr, 0, {at.x + 8, at.y + 5 + ImGui::GetTextLineHeight()}, packed(ui.colours().faint),
                  example.about.c_str(), nullptr, width - ui.scaled(16));
   }
   if (examples().empty()) ImGui::TextDisabled("The examples were not found beside the program.");
@@ -128,7 +148,7 @@ void draw_shortcuts(Ui& ui) {
     for (const auto& [key, what] : all) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
-      ImGui::TextColored(ui.look().accent, "%s", key);
+      ImGui::TextColored(ui.colours().accent, "%s", key);
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(what);
     }
@@ -160,7 +180,7 @@ void list_folder(Ui& ui) {
         m.folder = fs::path(m.folder) / name;
     }
   }
-  if (failed) ImGui::TextColored(ui.look().bad, "This folder cannot be read.");
+  if (failed) ImGui::TextColored(ui.colours().bad, "This folder cannot be read.");
   ImGui::EndChild();
 }
 
@@ -188,7 +208,7 @@ void draw_files(Ui& ui) {
   const fs::path chosen = fs::path(m.folder) / m.name;
   std::error_code none;
   const bool exists = !m.name.empty() && fs::is_regular_file(chosen, none);
-  if (!open && exists) ImGui::TextColored(ui.look().warning, "This file will be replaced.");
+  if (!open && exists) ImGui::TextColored(ui.colours().warning, "This file will be replaced.");
   const bool possible = open ? exists : !m.name.empty();
   if (!possible) ImGui::BeginDisabled();
   const bool pressed = ImGui::Button(open ? "Open" : "Save", {ui.scaled(100), 0});

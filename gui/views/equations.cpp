@@ -44,7 +44,7 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
 }
 
 void draw_marks(Ui& ui, const Equation& equation) {
-  const Look& look = ui.look();
+  const Colours& colours = ui.colours();
   if (equation.objective) {
     const auto& terms = ui.state.motion ? ui.state.motion->terms : std::vector<std::pair<std::string, double>>{};
     const auto term = std::ranges::find(terms, equation.name, &std::pair<std::string, double>::first);
@@ -55,7 +55,7 @@ void draw_marks(Ui& ui, const Equation& equation) {
   const Violation* violation = violation_of(ui.state, equation.name);
   if (!violation) return;
   const bool met = violation->max <= 1e-6;
-  ImGui::TextColored(met ? look.good : look.bad, "%s", met ? "met" : shown(violation->max).c_str());
+  ImGui::TextColored(met ? colours.good : colours.bad, "%s", met ? "met" : shown(violation->max).c_str());
   if (ImGui::IsItemHovered()) {
     std::string text = fmt::format("Off by {} at most", shown(violation->max));
     if (violation->time) text += fmt::format(", at {} s", shown(*violation->time));
@@ -116,7 +116,7 @@ void draw_row(Ui& ui, const Equation& equation) {
                          : "Only what has a name in the scene can be edited here: constrain NAME: ...");
   ImGui::TableNextColumn();
   const bool selected = ui.state.selection.constraint == equation.name;
-  if (!equation.enabled) ImGui::PushStyleColor(ImGuiCol_Text, ui.look().faint);
+  if (!equation.enabled) ImGui::PushStyleColor(ImGuiCol_Text, ui.colours().faint);
   if (ImGui::Selectable(equation.name.c_str(), selected, ImGuiSelectableFlags_AllowDoubleClick)) {
     Selection selection = ui.state.selection;
     selection.constraint = selected ? "" : equation.name;

@@ -60,7 +60,7 @@ bool draw_shown(Ui& ui, const std::string& name, const std::string& label, bool 
   if (selected)
     list.AddRectFilled(low, high, colour, 2);
   else
-    list.AddRect(low, high, packed(ui.look().line), 2);
+    list.AddRect(low, high, packed(ui.colours().line), 2);
   ImGui::SetCursorScreenPos({at.x + size + ui.scaled(6), at.y});
   return ImGui::Selectable((label + "##" + name).c_str(), false);
 }
@@ -113,7 +113,7 @@ ImVec4 colour_of(const Ui& ui, const std::string& name) {
     if (dof == problem.dofs.end())
       index += static_cast<std::size_t>(std::ranges::find(problem.plots, name, &Plot::name) - problem.plots.begin());
   }
-  return ui.look().curves[index % ui.look().curves.size()];
+  return ui.colours().curves[index % ui.colours().curves.size()];
 }
 
 void draw_freedoms(Ui& ui) {

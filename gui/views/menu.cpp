@@ -124,7 +124,7 @@ void draw_toolbar(Ui& ui) {
   const auto button = [&](const char* label, const char* name, bool possible, const char* help, bool strong = false) {
     if (!possible) ImGui::BeginDisabled();
     if (strong) {
-      ImVec4 colour = ui.look().accent;
+      ImVec4 colour = ui.colours().accent;
       colour.w = 0.75F;
       ImGui::PushStyleColor(ImGuiCol_Button, colour);
     }
@@ -164,9 +164,9 @@ void draw_toolbar(Ui& ui) {
 void draw_status(Ui& ui) {
   const State& s = ui.state;
   const auto daemon = [&](const char* name, const Daemon& d) {
-    const ImVec4& colour = d.condition == Daemon::Condition::ready  ? ui.look().good
-                           : d.condition == Daemon::Condition::lost ? ui.look().bad
-                                                                    : ui.look().warning;
+    const ImVec4& colour = d.condition == Daemon::Condition::ready  ? ui.colours().good
+                           : d.condition == Daemon::Condition::lost ? ui.colours().bad
+                                                                    : ui.colours().warning;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float size = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddCircleFilled({at.x + size / 2, at.y + size / 2}, size * 0.28F, packed(colour));
@@ -188,9 +188,9 @@ void draw_status(Ui& ui) {
     const Notice& notice = s.notices[i];
     if (notice.place != Notice::Place::status || !notice.about.empty()) continue;
     told = true;
-    const ImVec4& colour = notice.severity == Severity::error     ? ui.look().bad
-                           : notice.severity == Severity::warning ? ui.look().warning
-                                                                  : ui.look().text;
+    const ImVec4& colour = notice.severity == Severity::error     ? ui.colours().bad
+                           : notice.severity == Severity::warning ? ui.colours().warning
+                                                                  : ui.colours().text;
     ImGui::TextColored(colour, "%s", notice.text.c_str());
     ui.here("notice");
     if (ImGui::IsItemClicked()) ui.emit(Dismiss{static_cast<int>(i)});

@@ -63,7 +63,7 @@ void draw_convergence(Ui& ui) {
         if (v > 0 && std::isfinite(v)) highest = std::max(highest, std::log10(v));
     frame.top = std::ceil(highest + 0.1);
   }
-  draw_scales(list, frame, ui.look(), true);
+  draw_scales(list, frame, ui.colours(), true);
   ImGui::PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
   const auto curve = [&](double IterationRecord::*measure, const ImVec4& colour) {
     list.PathClear();
@@ -74,12 +74,12 @@ void draw_convergence(Ui& ui) {
     }
     list.PathStroke(packed(colour), 0, ui.scaled(1.6F));
   };
-  curve(&IterationRecord::stationarity, ui.look().curves[1]);
-  curve(&IterationRecord::violation, ui.look().curves[0]);
+  curve(&IterationRecord::stationarity, ui.colours().curves[1]);
+  curve(&IterationRecord::violation, ui.colours().curves[0]);
   ImGui::PopClipRect();
-  ImGui::TextColored(ui.look().curves[0], "violation");
+  ImGui::TextColored(ui.colours().curves[0], "violation");
   ImGui::SameLine();
-  ImGui::TextColored(ui.look().curves[1], "gradient");
+  ImGui::TextColored(ui.colours().curves[1], "gradient");
 }
 
 void draw_terms(Ui& ui) {
@@ -119,7 +119,7 @@ void draw_optimisation(Ui& ui) {
   draw_choices(ui);
   ui.notices(Notice::Place::optimisation);
   if (s.running) {
-    ImGui::TextColored(ui.look().accent, s.stopping ? "Stopping" : "Solving");
+    ImGui::TextColored(ui.colours().accent, s.stopping ? "Stopping" : "Solving");
     if (!s.record.empty()) {
       ImGui::SameLine();
       ImGui::TextDisabled("iteration %d, objective %s", s.record.back().iteration,
@@ -127,9 +127,9 @@ void draw_optimisation(Ui& ui) {
     }
   } else if (s.motion && s.motion->iterations > 0) {
     const Status status = s.motion->status;
-    const ImVec4& colour = status == Status::converged ? ui.look().good
-                           : status == Status::stopped ? ui.look().warning
-                                                       : ui.look().bad;
+    const ImVec4& colour = status == Status::converged ? ui.colours().good
+                           : status == Status::stopped ? ui.colours().warning
+                                                       : ui.colours().bad;
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::TextWrapped("%s after %d iterations", std::string(name_of(status)).c_str(), s.motion->iterations);
     ImGui::PopStyleColor();

@@ -25,8 +25,8 @@ double round_step(double span, double parts) {
   return 10 * power;
 }
 
-void draw_scales(ImDrawList& list, const PlotFrame& f, const Look& look, bool powers_of_ten) {
-  const ImU32 line = packed(look.line, 0.6F), strong = packed(look.line), text = packed(look.faint);
+void draw_scales(ImDrawList& list, const PlotFrame& f, const Colours& colours, bool powers_of_ten) {
+  const ImU32 line = packed(colours.line, 0.6F), strong = packed(colours.line), text = packed(colours.faint);
   const float height = ImGui::GetFontSize();
   const double across = round_step(f.right - f.left, std::max(2.0F, f.size.x / (6 * height)));
   for (double v = std::ceil(f.left / across) * across; v <= f.right + 1e-9 * across; v += across) {

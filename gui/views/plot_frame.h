@@ -24,6 +24,6 @@ struct PlotFrame {
 double round_step(double span, double parts);
 
 // Lines and numbers of both scales.  The numbers of the vertical one stand left of the area, of the other one below it.
-void draw_scales(ImDrawList& list, const PlotFrame& frame, const Look& look, bool powers_of_ten = false);
+void draw_scales(ImDrawList& list, const PlotFrame& frame, const Colours& colours, bool powers_of_ten = false);
 
 }  // namespace spacetime::gui

@@ -86,7 +86,7 @@ std::optional<PlaceHandle> draw_places(Ui& ui, const ImVec2& corner, const glm::
     const bool near = glm::length(mouse - as_vector(here)) < ui.scaled(12);
     if (near) hot = place;
     const float r = ui.scaled(near || mine ? 10 : 8);
-    const ImU32 colour = packed(near || mine ? ui.look().text : ui.look().warning);
+    const ImU32 colour = packed(near || mine ? ui.colours().text : ui.colours().warning);
     list.AddCircle(here, r, colour, 24, ui.scaled(2));
     list.AddLine({here.x - r - 4, here.y}, {here.x - r + 4, here.y}, colour, ui.scaled(2));
     list.AddLine({here.x + r - 4, here.y}, {here.x + r + 4, here.y}, colour, ui.scaled(2));
@@ -214,8 +214,8 @@ void draw_words(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
   if (!text.empty()) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     const float x = corner.x + (size.x - extent.x) / 2, y = corner.y + ui.scaled(10);
-    list.AddRectFilled({x - 10, y - 4}, {x + extent.x + 10, y + extent.y + 4}, packed(ui.look().panel, 0.85F), 5);
-    list.AddText({x, y}, packed(ui.look().text), text.c_str());
+    list.AddRectFilled({x - 10, y - 4}, {x + extent.x + 10, y + extent.y + 4}, packed(ui.colours().panel, 0.85F), 5);
+    list.AddText({x, y}, packed(ui.colours().text), text.c_str());
   }
 }
 

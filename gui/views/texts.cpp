@@ -15,14 +15,14 @@ const Diagnostic* mistake_in(const std::vector<Diagnostic>& mistakes, int line) 
 }
 
 void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diagnostic>& mistakes) {
-  const Look& look = ui.look();
+  const Colours& colours = ui.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
   const auto& outline = ui.state.scene->outline;
   const auto statement = std::ranges::find_if(outline, [&](const Statement& s) { return s.line == number; });
   if (statement != outline.end() && !statement->name.empty() && statement->name == ui.state.selection.constraint)
-    list.AddRectFilled({at.x - 4, at.y - 1}, {at.x + width, at.y + height + 1}, packed(look.accent, 0.18F), 3);
+    list.AddRectFilled({at.x - 4, at.y - 1}, {at.x + width, at.y + height + 1}, packed(colours.accent, 0.18F), 3);
   if (ui.memory.scroll_to_line == number) {
     ImGui::SetScrollHereY(0.4F);
     ui.memory.scroll_to_line = 0;
@@ -35,7 +35,7 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
   const float gap = 0;
   if (statement != outline.end() && code.find(statement->word) == code.find_first_not_of(' ')) {
     const std::size_t end = code.find(statement->word) + statement->word.size();
-    ImGui::PushStyleColor(ImGuiCol_Text, look.accent);
+    ImGui::PushStyleColor(ImGuiCol_Text, colours.accent);
     ImGui::TextUnformatted(code.data(), code.data() + end);
     ImGui::PopStyleColor();
     ImGui::SameLine(0, gap);
@@ -44,7 +44,7 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
   ImGui::TextUnformatted(code.data(), code.data() + code.size());
   if (comment < line.size()) {
     ImGui::SameLine(0, gap);
-    ImGui::PushStyleColor(ImGuiCol_Text, look.faint);
+    ImGui::PushStyleColor(ImGuiCol_Text, colours.faint);
     ImGui::TextUnformatted(line.data() + comment, line.data() + line.size());
     ImGui::PopStyleColor();
   }
@@ -53,9 +53,9 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
     const float left = at.x + 3 * digit + ui.scaled(10) + static_cast<float>(mistake->span.column - 1) * digit;
     const float right = left + static_cast<float>(std::max(1, mistake->span.length)) * digit, y = at.y + height;
     for (float x = left; x < right; x += 4)
-      list.AddLine({x, y + 1}, {std::min(x + 2, right), y - 1}, packed(look.bad), 1.5F);
+      list.AddLine({x, y + 1}, {std::min(x + 2, right), y - 1}, packed(colours.bad), 1.5F);
     ImGui::PushFont(ui.memory.fonts.text);
-    ImGui::PushStyleColor(ImGuiCol_Text, look.bad);
+    ImGui::PushStyleColor(ImGuiCol_Text, colours.bad);
     ImGui::Indent(left - at.x);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(mistake->message.c_str());
@@ -101,7 +101,7 @@ void draw_log(Ui& ui) {
     std::ranges::replace(line, '\n', ' ');
     if (i > 0 && entry.motion && entry.iterated)
       line += fmt::format("   ({}, {})", name_of(entry.motion->status), shown(entry.motion->objective));
-    ImGui::PushStyleColor(ImGuiCol_Text, future ? ui.look().faint : ui.look().text);
+    ImGui::PushStyleColor(ImGuiCol_Text, future ? ui.colours().faint : ui.colours().text);
     ImGui::PushFont(i == 0 ? ui.memory.fonts.text : ui.memory.fonts.code);
     if (ImGui::Selectable(fmt::format("{}##{}", line, i).c_str(), here) && entry.checkpoint)
       ui.emit(GoTo{static_cast<int>(i)});
@@ -124,8 +124,8 @@ void draw_console(Ui& ui) {
   const float below = 2 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing();
   ImGui::BeginChild("answers", {0, -below});
   for (const ConsoleLine& line : ui.state.console) {
-    ImGui::TextColored(ui.look().accent, "> %s", line.asked.c_str());
-    ImGui::PushStyleColor(ImGuiCol_Text, line.wrong ? ui.look().bad : ui.look().text);
+    ImGui::TextColored(ui.colours().accent, "> %s", line.asked.c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, line.wrong ? ui.colours().bad : ui.colours().text);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(line.waiting ? "..." : line.answer.c_str());
     ImGui::PopTextWrapPos();

@@ -39,8 +39,8 @@ Fonts load_fonts(float scale) {
   return fonts;
 }
 
-Look look_of(bool dark) {
-  Look p;
+Colours colours_of(bool dark) {
+  Colours p;
   if (dark) {
     p.ground = rgb(0x1b1e23);
     p.panel = rgb(0x23272e);
@@ -71,7 +71,7 @@ Look look_of(bool dark) {
   return p;
 }
 
-void apply(const Look& p, float scale) {
+void apply(const Colours& p, float scale) {
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   style.WindowPadding = {10, 8};

@@ -13,7 +13,7 @@ struct Fonts {
   ImFont* code = nullptr;
 };
 
-struct Look {
+struct Colours {
   ImVec4 ground, panel, raised, line, text, faint, accent, good, warning, bad;
   std::array<ImVec4, 8> curves;  // told apart by people who see fewer colours, too (Okabe and Ito 2008)
 };
@@ -22,10 +22,10 @@ struct Look {
 // of the screen: 1 for about 100 dots an inch.
 Fonts load_fonts(float scale);
 
-Look look_of(bool dark);
+Colours colours_of(bool dark);
 
 // Sets ImGui's style to the palette.
-void apply(const Look& look, float scale);
+void apply(const Colours& colours, float scale);
 
 ImU32 packed(const ImVec4& colour, float opacity = 1);
 

@@ -43,7 +43,7 @@ bool draw_icon(Ui& ui, Icon icon, const char* name, const char* help) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const ImVec2 c{(low.x + high.x) / 2, (low.y + high.y) / 2};
   const float r = ui.scaled(5), w = ui.scaled(2.5F);
-  const ImU32 colour = packed(ui.look().text);
+  const ImU32 colour = packed(ui.colours().text);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto triangle = [&](float x, float direction) {
     list.AddTriangleFilled({x - direction * r * 0.8F, c.y - r}, {x - direction * r * 0.8F, c.y + r},
@@ -121,17 +121,17 @@ void draw_ruler(Ui& ui, const Axis& axis) {
     const double t = axis.start + k * step / 5;
     const bool named = k % 5 == 0;
     const float x = axis.x(t);
-    list.AddLine({x, at.y + (named ? 12.0F : 17.0F) * ui.memory.scale}, {x, at.y + height}, packed(ui.look().line));
+    list.AddLine({x, at.y + (named ? 12.0F : 17.0F) * ui.memory.scale}, {x, at.y + height}, packed(ui.colours().line));
     if (!named) continue;
     const std::string text = fmt::format("{:g}", std::round(t * 1e6) / 1e6);
-    list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.look().faint), text.c_str());
+    list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.colours().faint), text.c_str());
   }
   // Keyframes of the sketch.
   if (const auto& scene = ui.state.scene; scene && scene->problem) {
     for (const Keyframe& key : scene->problem->keyframes) {
       const float x = axis.x(value_of(key.time, *scene->problem, ui.question().constants)), y = at.y + height - 5;
       const float r = ui.scaled(4);
-      list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.look().curves[1]));
+      list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.colours().curves[1]));
     }
   }
   ImGui::SetCursorScreenPos({at.x, at.y + height});
@@ -162,7 +162,7 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
     ui.here(name + (end == 0 ? " from" : " to"));
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (hot) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-    list.AddRectFilled({x - 2, at.y + 1}, {x + 2, at.y + height + 1}, packed(hot ? ui.look().text : colour), 2);
+    list.AddRectFilled({x - 2, at.y + 1}, {x + 2, at.y + height + 1}, packed(hot ? ui.colours().text : colour), 2);
     if (ImGui::IsItemActivated()) {
       dragged = name;
       ends[0] = from;
@@ -194,9 +194,10 @@ std::string scope_line(const Equation& equation, double from, double to, const P
 void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
   const Question& question = ui.question();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  label_of(ui, *ImGui::GetWindowDrawList(), axis, at.y + ui.scaled(7), "window", ui.look().text);
+  label_of(ui, *ImGui::GetWindowDrawList(), axis, at.y + ui.scaled(7), "window", ui.colours().text);
   const auto shown_window = question.window.value_or(std::pair{problem.start, problem.end});
-  if (const auto ends = draw_bar(ui, axis, "window", shown_window.first, shown_window.second, ui.look().accent, true);
+  if (const auto ends =
+          draw_bar(ui, axis, "window", shown_window.first, shown_window.second, ui.colours().accent, true);
       ends && ends->second > ends->first) {
     std::vector<std::string> names;
     for (const Freedom& dof : question.dofs)
@@ -220,8 +221,10 @@ void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float y = at.y + ui.scaled(7);
     const bool selected = ui.state.selection.constraint == equation.name;
-    const ImVec4 colour = !equation.enabled ? ui.look().line : selected ? ui.look().accent : ui.look().curves[2];
-    label_of(ui, list, axis, y, equation.name, selected ? ui.look().accent : ui.look().faint);
+    const ImVec4 colour = !equation.enabled ? ui.colours().line
+                          : selected        ? ui.colours().accent
+                                            : ui.colours().curves[2];
+    label_of(ui, list, axis, y, equation.name, selected ? ui.colours().accent : ui.colours().faint);
     std::vector<double> times;
     try {
       times = times_of(equation.scope, problem, question.constants, basis);
@@ -277,7 +280,7 @@ void draw_timeline(Ui& ui) {
   // The cursor goes through everything.
   const float x = axis.x(s.playback.time);
   ImGui::GetWindowDrawList()->AddLine({x, below - ui.scaled(10)}, {x, at.y + ImGui::GetWindowHeight()},
-                                      packed(ui.look().bad, 0.9F), 1.5F);
+                                      packed(ui.colours().bad, 0.9F), 1.5F);
 }
 
 }  // namespace spacetime::gui

@@ -45,9 +45,9 @@ void Ui::notices(Notice::Place place, const std::string& about) {
   for (std::size_t i = 0; i < state.notices.size(); ++i) {
     const Notice& notice = state.notices[i];
     if (notice.place != place || notice.about != about) continue;
-    const ImVec4& colour = notice.severity == Severity::error     ? look().bad
-                           : notice.severity == Severity::warning ? look().warning
-                                                                  : look().faint;
+    const ImVec4& colour = notice.severity == Severity::error     ? colours().bad
+                           : notice.severity == Severity::warning ? colours().warning
+                                                                  : colours().faint;
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::TextWrapped("%s", notice.text.c_str());
     ImGui::PopStyleColor();

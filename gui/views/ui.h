@@ -56,7 +56,7 @@ struct FilesMemory {
 
 struct Memory {
   Fonts fonts;
-  Look look;
+  Colours colours;
   float scale = 1;
   std::shared_ptr<const Scene> asked;  // what `question` was worked out from
   Question question;
@@ -88,7 +88,7 @@ struct Ui {
   void act(std::string line, Notice::Place place = Notice::Place::status, std::string about = {}) {
     emit(Act{std::move(line), place, std::move(about)});
   }
-  const Look& look() const { return memory.look; }
+  const Colours& colours() const { return memory.colours; }
   const Question& question() const;    // of the scene shown
   const Residuals& residuals() const;  // of its equations, on the curves shown
   float scaled(float pixels) const { return pixels * memory.scale; }
