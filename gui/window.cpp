@@ -59,7 +59,7 @@ class Shell {
 
 }  // namespace
 
-int run_window(Hub& hub, float scale) {
+int run_window(Hub& hub, float scale, bool welcome) {
   Shell shell;
   Memory memory;
   if (scale <= 0) {
@@ -69,7 +69,7 @@ int run_window(Hub& hub, float scale) {
   }
   memory.scale = scale;
   memory.fonts = load_fonts(scale);
-  memory.welcome = hub.state().scene == nullptr && hub.state().file.empty();
+  memory.welcome = welcome;
   const auto scene = std::make_unique<SceneView>();
   bool styled = false, dark = false;
   auto before = std::chrono::steady_clock::now();
@@ -107,6 +107,7 @@ int run_window(Hub& hub, float scale) {
     for (Event& event : events) hub.post(std::move(event));
   }
   hub.step(0);  // what was asked for last: saving, most often
+  hub.close(memory.discard);
   return 0;
 }
 

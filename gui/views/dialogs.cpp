@@ -261,6 +261,7 @@ void draw_guard(Ui& ui) {
   ui.here("guard save");
   ImGui::SameLine();
   if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
+    ui.memory.discard = true;
     go(ui, next);
     ImGui::CloseCurrentPopup();
   }

@@ -203,6 +203,18 @@ void take_mouse(Ui& ui, Pull& pull, const Picture& picture, const Figures& figur
   }
 }
 
+// Where the figure's parts are seen, by name.
+void note_parts(Ui& ui, const Picture& picture, const Figures& figures, const ImVec2& corner, const glm::vec2& size) {
+  for (const Solid& solid : picture.solids) {
+    if (solid.id < 0 || solid.layer > 0) continue;
+    const glm::vec4 middle =
+        solid.pose * glm::vec4(solid.extent * (solid.shape == Solid::Shape::capsule ? 0.5F : 0.0F), 1);
+    const auto seen = project(ui.memory.scene.camera, size, glm::vec3(middle));
+    if (seen)
+      ui.memory.places["part " + figures.name(solid.id)] = {corner.x + seen->x - 1, corner.y + seen->y - 1, 2, 2};
+  }
+}
+
 void draw_words(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const State& s = ui.state;
@@ -253,6 +265,7 @@ void SceneView::draw(Ui& ui) {
   ImGui::GetWindowDrawList()->AddImageRounded(
       reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(r.target->texture())), corner,
       {corner.x + size.x, corner.y + size.y}, {0, 1}, {1, 0}, IM_COL32_WHITE, ui.scaled(6));
+  note_parts(ui, picture, *r.figures, corner, size);
   const auto hot = draw_places(ui, corner, size, r.pull);
   take_mouse(ui, r.pull, picture, *r.figures, hot, corner, size);
   draw_words(ui, corner, size);

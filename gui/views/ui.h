@@ -71,6 +71,7 @@ struct Memory {
   int tab_left = -1, tab_right = -1;            // to be chosen in the next frame
   bool welcome = false, shortcuts = false;
   bool quit_asked = false, quit = false;  // the window is to be closed
+  bool discard = false;                   // ... and what is not saved is to be thrown away
   std::string after_saving;               // what to open once the person has decided about unsaved changes
   std::string console, console_by;
   int scroll_to_line = 0;  // in the scene text

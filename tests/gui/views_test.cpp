@@ -50,7 +50,9 @@ TEST(Views, AreDrawn) {
       screen.memory().tab_left = std::min(tab, 2);
       screen.memory().tab_right = tab;
       for (int k = 0; k < 4; ++k) screen.frame(state);
-      if (folder) write_png(std::string(folder) + "/throw-" + (dark ? "dark" : "light") + std::to_string(tab) + ".png", screen.image());
+      if (folder)
+        write_png(std::string(folder) + "/throw-" + (dark ? "dark" : "light") + std::to_string(tab) + ".png",
+                  screen.image());
     }
   }
 }

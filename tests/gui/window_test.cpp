@@ -1,0 +1,108 @@
+// The window as a person uses it, driven by injected input: every step is a click, a drag or a key.
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/files.h"
+#include "tests/gui/driven.h"
+#include "tests/gui/driver.h"
+
+namespace spacetime::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder(const std::string& name) {
+  const fs::path path = fs::temp_directory_path() / ("spacetime-window-" + name + "-" + std::to_string(getpid()));
+  fs::remove_all(path);
+  fs::create_directories(path);
+  return path;
+}
+
+std::string present_curves(const gui::State& state) { return curves_text(*state.log[state.present].motion); }
+
+TEST(Window, AThrowIsMadeChangedUndoneSavedAndTheSameInABatch) {
+  const std::string here = folder("throw");
+  const std::string file = here + "/throw.scene";
+  fs::copy_file(SPACETIME_SOURCE_DIR "/examples/throw.scene", file);
+  Driver d(daemons(here + "/state"));
+  d.hub().post(gui::Open{file});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.settle();
+  d.save_picture("throw-1-opened.png");
+
+  d.click("run");
+  d.settle();
+  ASSERT_EQ(d.state().motion->status, Status::converged) << d.state().motion->message;
+  d.save_picture("throw-2-solved.png");
+
+  // Scrubbing moves the time to where the mouse is.
+  const gui::Rect ruler = d.place("ruler");
+  d.drag("ruler", ruler.width * 0.1F, 0);
+  EXPECT_NEAR(d.state().playback.time, 1.2, 0.03);
+
+  // The basket: the motion follows while it is dragged, and one undo step is left of it.
+  const int before = d.state().present;
+  d.drag("place Basket", -40, 20, 10, false);
+  d.until([](const gui::State& s) { return s.steering.has_value() && s.ghost != nullptr; }, "a drag with a ghost");
+  d.frame(10);
+  d.save_picture("throw-3-dragging.png");
+  d.let_go();
+  d.settle();
+  EXPECT_EQ(d.state().motion->status, Status::converged) << d.state().motion->message;
+  EXPECT_NE(d.state().present, before);
+  EXPECT_LT(text_of(d.state()).find("set BasketX"), text_of(d.state()).size());
+  d.save_picture("throw-4-dragged.png");
+
+  // An overhand pose: the arm is pulled up by its middle link at 0.5 s, and keyed.
+  gui::Playback playback = d.state().playback;
+  playback.time = 0.5;
+  d.hub().post(gui::SetPlayback{playback});
+  d.frame(2);
+  const gui::Rect scene = d.place("scene");
+  const auto hand = d.place("part arm.fore");
+  d.drag("part arm.fore", 0, scene.y + 0.3F * scene.height - hand.y, 12);
+  ASSERT_TRUE(d.state().pose.has_value());
+  d.save_picture("throw-5-posed.png");
+  d.key(GLFW_KEY_K);
+  d.settle();
+  EXPECT_FALSE(d.state().pose.has_value());
+  EXPECT_LT(text_of(d.state()).find("key 0.5:"), text_of(d.state()).size());
+  d.click("run");
+  d.settle();
+  d.save_picture("throw-6-keyed.png");
+
+  // To the beginning and back: nothing is solved again, the bits are the same.
+  const std::string last = present_curves(d.state());
+  const int steps = d.state().present;
+  for (int k = 0; k <= steps && can_undo(d.state()); ++k) {
+    d.click("undo");
+    d.settle();
+  }
+  EXPECT_EQ(d.state().present, 0);
+  d.save_picture("throw-7-undone.png");
+  for (int k = 0; k <= steps && can_redo(d.state()); ++k) {
+    d.key(GLFW_KEY_Z, true, true);
+    d.settle();
+  }
+  EXPECT_EQ(d.state().present, steps);
+  EXPECT_EQ(present_curves(d.state()), last);
+
+  d.key(GLFW_KEY_S, true);
+  d.until([](const gui::State& s) { return !unsaved(s); }, "the file");
+  EXPECT_EQ(batch_curves(read_text(file)), last);
+
+  // Opened again, its script leads to the same motion.
+  d.hub().post(gui::Open{file});
+  d.frame(3);
+  d.settle();
+  while (!d.state().script.empty()) {
+    d.click("run");
+    d.settle();
+  }
+  EXPECT_EQ(present_curves(d.state()), last);
+}
+
+}  // namespace
+}  // namespace spacetime::test
