@@ -59,10 +59,11 @@ Offscreen::Offscreen() {
   }
 }
 
+// The display stays initialised: it is the process's, for all its contexts, and drivers leak what they are unloaded
+// with.
 Offscreen::~Offscreen() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  eglTerminate(display_);
 }
 
 }  // namespace spacetime::gui
