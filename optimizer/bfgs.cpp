@@ -87,7 +87,7 @@ StepResult Bfgs::step(BfgsState& state, double tolerance) {
     d = -(h * state.point.gradient);
   }
   const LinePoint start{0, state.point.value, state.point.gradient.dot(d)};
-  const double longest = longest_step / d.cwiseAbs().maxCoeff();
+  const double longest = std::min(longest_step / d.cwiseAbs().maxCoeff(), penalty_.most_length(d));
   PenaltyPoint there;
   const auto phi = [&](double length) {
     const Stopwatch watch(state.seconds.evaluate);

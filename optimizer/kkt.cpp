@@ -10,7 +10,7 @@ namespace {
 // Regularisation of unknowns, relative to the mean curvature: gives a pivot to what no term of the objective moves.
 constexpr double unknown_regularisation = 1e-9;
 
-// Likewise of limits and soft rows: what they pull on unknowns stays within so many times those's own curvature, or the
+// Likewise of limits and soft rows: what they pull on unknowns stays within so many times their own curvature, or the
 // digits of everything else would be lost in it.
 constexpr double compliant_regularisation = 1e-10;
 

@@ -228,4 +228,14 @@ class Arranger {
 
 Layout arrange(const Transcription& transcription) { return Arranger(transcription).run(); }
 
+double most_length(const Transcription& t, const Layout& layout, const Eigen::VectorXd& direction) {
+  constexpr double within = 1 - 1e-9;  // whatever adding it rounds to
+  double most = std::numeric_limits<double>::infinity();
+  for (const int u : layout.free) {
+    const double change = std::abs(direction[layout.of_unknown[u]]);
+    if (change * most > t.most_change[u]) most = within * t.most_change[u] / change;
+  }
+  return most;
+}
+
 }  // namespace spacetime::optimizer

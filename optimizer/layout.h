@@ -7,6 +7,7 @@
 // [design, "The step" and "The border"; optimizer/README.md says where we do otherwise, and why]
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct Layout {
 
   int size() const { return pattern->size(); }
 };
+
+// How far a direction, in positions, may be gone without any unknown changing by more than it may in one iteration
+// (`damp`); infinite where nothing limits it.
+double most_length(const Transcription& transcription, const Layout& layout, const Eigen::VectorXd& direction);
 
 // Throws InputError where the matrix would be too large to be factored.
 Layout arrange(const Transcription& transcription);

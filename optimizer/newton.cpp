@@ -70,17 +70,6 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   return largest;
 }
 
-// How far a direction may be gone without any unknown changing by more than it may in one iteration.
-double Newton::most_length(const Eigen::VectorXd& direction) const {
-  constexpr double within = 1 - 1e-9;  // whatever adding it rounds to
-  double most = std::numeric_limits<double>::infinity();
-  for (const int u : layout_.free) {
-    const double change = std::abs(direction[layout_.of_unknown[u]]);
-    if (change * most > t_.most_change[u]) most = within * t_.most_change[u] / change;
-  }
-  return most;
-}
-
 // Derivatives, multipliers and measures at state.x.
 void Newton::judge(NewtonState& state) {
   const Eigen::VectorXd c = residual_of(state.values);

@@ -111,7 +111,7 @@ class Newton {
   Eigen::VectorXd soft_weights(const Eigen::VectorXd& c) const;  // w where a soft row asks something
   double filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const;
   double largest_change(const Eigen::VectorXd& direction) const;
-  double most_length(const Eigen::VectorXd& direction) const;
+  double most_length(const Eigen::VectorXd& direction) const { return optimizer::most_length(t_, layout_, direction); }
 
   // search.cpp
   Trial try_at(NewtonState& state, const Eigen::VectorXd& change, const Barrier& barrier) const;

@@ -17,6 +17,12 @@ std::vector<double> Penalty::moved(std::vector<double> x, const Eigen::VectorXd&
   return x;
 }
 
+double Penalty::most_length(const Eigen::VectorXd& change) const {
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(layout_.size());
+  for (int k = 0; k < size(); ++k) direction[layout_.of_unknown[free_[k]]] = change[k];
+  return optimizer::most_length(t_, layout_, direction);
+}
+
 double Penalty::price(std::size_t row) const {
   switch (t_.rows[row].kind) {
     case Row::Kind::hard:

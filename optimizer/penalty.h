@@ -30,6 +30,7 @@ class Penalty {
 
   int size() const { return static_cast<int>(free_.size()); }
   std::vector<double> moved(std::vector<double> x, const Eigen::VectorXd& change) const;  // by free unknowns
+  double most_length(const Eigen::VectorXd& change) const;                                // see layout.h; likewise
   PenaltyPoint at(std::vector<double> x);          // functionals among x are set to their values
   PenaltyPoint settled_at(std::vector<double> x);  // they have them already
 

@@ -186,7 +186,8 @@ StepResult Sqp92::step(Sqp92State& state, double tolerance) {
   const double merit = state.values.objective + violation(c), noise = rounding * std::abs(merit);
   // The merit's slope along d, at most; a direction that is not exact may promise nothing.
   const double promised = std::min(0.0, state.gradient.dot(d) - (violation(c) - violation(c + slope)));
-  for (double length = 1; length > shortest_step; length /= 2) {
+  const double longest = std::min(1.0, most_length(t_, layout_, d));
+  for (double length = longest; length > shortest_step * longest; length /= 2) {
     std::vector<double> x = state.x;
     for (const int u : layout_.free) x[u] += length * d[layout_.of_unknown[u]];
     Values values;

@@ -10,7 +10,7 @@
 // - where W is not convex on the constraints' tangent space, d is no descent direction and the step no minimisation: a
 //   multiple of the identity is added to W until the inertia is that of a minimum (conjugate gradients do not know the
 //   inertia: until the curvature along d is not negative);
-// - a is halved from 1 until the merit falls sufficiently.
+// - a is halved from 1, or from where `damp` is met, until the merit falls sufficiently.
 //
 // Equations only: inequalities and bounds are refused by name.
 #pragma once

@@ -140,6 +140,25 @@ TEST(Damp, IsNeverExceeded) {
   EXPECT_EQ(before.status, Status::converged) << before.message;
 }
 
+TEST(Damp, IsNeverExceededByThePapersMethods) {
+  const std::string scene = head + "constrain x = 4 at 1\nconstrain y^2 + x = 5 at 1.5\ndamp 0.0625 of x\n";
+  for (const std::string method : {"sqp92", "bfgs"}) {
+    Motion before = run_scene(scene + "iterate 0\n");
+    bool reached = false;
+    for (int k = 1; k <= 12; ++k) {
+      const Motion after = run_scene(scene + "solve method " + method + " iterations " + std::to_string(k) + "\n");
+      double most = 0;
+      for (std::size_t c = 0; c < after.dofs[0].coefficients.size(); ++c) {
+        most = std::max(most, std::abs(after.dofs[0].coefficients[c] - before.dofs[0].coefficients[c]));
+      }
+      EXPECT_LE(most, 0.0625) << method << ", iteration " << k;
+      reached |= most > 0.06;
+      before = after;
+    }
+    EXPECT_TRUE(reached) << method;
+  }
+}
+
 TEST(Refine, DoesNotChangeTheMotion) {
   const Motion before = run_scene(head + "solve\n");
   const Motion after = run_scene(head + "solve\nrefine [0.4, 0.9] of x times 2\nrefine [0, 2] of y\niterate 0\n");
