@@ -27,6 +27,9 @@ void apply(State& state, const SettingsRead& event, Effects& effects);
 void apply(State& state, const SessionsFound& event, Effects& effects);
 void apply(State& state, const Restored& event, Effects& effects);
 void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& effects);
+// Of the problem of an entry whose motion is not known, and asks for that.
+void load_anew(State& state, const Entry& entry, Effects& effects);
+void load(State& state, std::shared_ptr<const Problem> problem, Wanted wanted, Effects& effects);
 // Leads the optimizer to the present entry, or goes on with it once its text is compiled.
 void go(State& state, Effects& effects);
 void went(State& state, const Compiled& event, Effects& effects);

@@ -205,7 +205,7 @@ void append(State& state, Entry entry, bool merge, bool seen, Effects& effects) 
   } else {
     effects.push_back(JournalLine{journal_present(state.present)});
   }
-  ask_checkpoint(state, effects, last.number);
+  work.unloaded.empty() ? ask_checkpoint(state, effects, last.number) : load_anew(state, last, effects);
 }
 
 std::shared_ptr<const Curves> curves_of(const Motion& motion) {
@@ -218,9 +218,9 @@ void show(State& state, const Entry& entry) {
   state.ghost = nullptr;
   state.pose.reset();
   state.motion = entry.motion;
-  if (!entry.motion) return;
-  state.curves = curves_of(*entry.motion);
+  state.curves = entry.motion ? curves_of(*entry.motion) : nullptr;
   ++state.revision;
+  if (!entry.motion) return;
   const int iterations = entry.motion->iterations;
   std::erase_if(state.record, [&](const IterationRecord& record) { return record.iteration > iterations; });
 }

@@ -142,11 +142,13 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   }
   const bool declares = !same_but_for_actions(*base.problem, *compiled.problem);
   work.declares = declares;
+  const bool acts = std::ranges::any_of(statements, &Statement::action);
+  if (acts && !work.unloaded.empty()) return refuse_task(state, work.unloaded, effects);
   if (declares && work.inexact) return ask_compile(state, effects, base.text, {Kind::base, 0});
 
   work.acting = event.scene;
   if (!work.run) cut_redo(state);
-  if (declares) {
+  if (declares && work.unloaded.empty()) {
     Request request;
     request.method = "problem/update";
     request.problem = compiled.problem;

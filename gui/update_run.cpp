@@ -50,6 +50,7 @@ void count_step(State& state) {
   Work& work = state.work;
   if (--work.unanswered > 0) return;
   work.at = work.going;
+  work.unloaded.clear();
   work.going = 0;
   work.sampled = -1;
 }
@@ -175,6 +176,7 @@ void apply(State& state, const Reached& event, Effects& effects) {
   if (wanted->kind == Kind::checkpoint) {
     Entry* entry = entry_of(state, wanted->entry);
     if (!entry) return;
+    work.unloaded.clear();
     entry->motion = event.motion;
     entry->checkpoint = event.checkpoint;
     // The run has gone on since the act: it has led here by so many iterations more.
@@ -212,6 +214,7 @@ void apply(State& state, const Sampled& event, Effects&) {
 
 void apply(State& state, const Acknowledged& event, Effects&) {
   const auto wanted = take(state, event.number);
+  if (wanted && wanted->kind == Kind::load) state.work.unloaded.clear();
   if (wanted && wanted->kind == Kind::go) count_step(state);
 }
 
@@ -229,10 +232,14 @@ void apply(State& state, const Refused& event, Effects& effects) {
       work.opening.reset();
       return tell(Place::status, "The scene cannot be compiled: " + event.message);
     }
-    case Kind::open_load:
-      work.at = 0;
-      work.failed = wanted->entry;
-      return tell(Place::status, "The optimizer refuses the scene: " + event.message);
+    case Kind::load:
+      if (Entry* entry = entry_of(state, wanted->entry)) {
+        // A scene that is only being written: its text can be come back to.
+        if (!entry->checkpoint) entry->checkpoint = std::make_shared<const std::string>();
+        work.unloaded = event.message;
+        forget(state, Kind::checkpoint);
+      }
+      return notify(state, {Place::optimisation, Severity::note, event.message, "", 0});
     case Kind::base:
     case Kind::act_compile:
       if (work.task) refuse_task(state, event.message, effects);
@@ -273,7 +280,8 @@ void apply(State& state, const Ask& event, Effects& effects) {
   if (state.console.size() >= most_console_lines) state.console.erase(state.console.begin());
   ConsoleLine line;
   line.asked = event.by.empty() ? event.text : "d(" + event.text + ") / d" + event.by;
-  const auto waiting = std::ranges::count_if(state.console, &ConsoleLine::waiting);
+  const auto waiting =
+      std::ranges::count_if(state.work.wanted, [](const auto& wanted) { return wanted.second.kind == Kind::console; });
   const bool possible = state.scene && state.scene->problem;
   if (!possible || waiting >= most_console_waiting) {
     line.wrong = true;

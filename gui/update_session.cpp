@@ -38,7 +38,7 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
 }
 
 void open_text(State& state, std::string file, std::string text, Effects& effects) {
-  begin(state, file, file.empty() ? std::string() : text, effects);
+  begin(state, file, text, effects);
   state.work.opening = text;
   ask_compile(state, effects, std::move(text), {Kind::open_whole, 0});
 }
@@ -73,13 +73,6 @@ std::pair<std::string, std::vector<std::string>> split(const Scene& scene) {
   return {scene.text.substr(0, cuts.front()), script};
 }
 
-void load(State& state, Effects& effects, std::shared_ptr<const Problem> problem, Wanted wanted) {
-  Request request;
-  request.method = "problem/load";
-  request.problem = std::move(problem);
-  ask(state, effects, std::move(request), wanted);
-}
-
 void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effects) {
   Work& work = state.work;
   work.opening.reset();
@@ -93,14 +86,25 @@ void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effect
   if (!scene->problem) return;
   state.script = std::move(work.script);
   state.playback.time = scene->problem->start;
-  load(state, effects, scene->problem, {Kind::open_load, entry.number});
-  work.at = entry.number;
-  ask_checkpoint(state, effects, entry.number);
+  load_anew(state, state.log.front(), effects);
   effects.push_back(JournalBegin{});
   effects.push_back(JournalLine{journal_begin(state)});
 }
 
 }  // namespace
+
+void load(State& state, std::shared_ptr<const Problem> problem, Wanted wanted, Effects& effects) {
+  Request request;
+  request.method = "problem/load";
+  request.problem = std::move(problem);
+  ask(state, effects, std::move(request), wanted);
+}
+
+void load_anew(State& state, const Entry& entry, Effects& effects) {
+  load(state, entry.scene->problem, {Kind::load, entry.number}, effects);
+  state.work.at = entry.number;
+  ask_checkpoint(state, effects, entry.number);
+}
 
 void apply(State&, const Open& event, Effects& effects) { effects.push_back(ReadFile{event.file}); }
 
@@ -196,11 +200,14 @@ void go(State& state, Effects& effects) {
       if (state.log[i].checkpoint) return apply(state, GoTo{i}, effects);
     }
   }
+  if (!entry.scene->problem) {
+    work.going = entry.number;
+    return ask_compile(state, effects, entry.scene->text, {Kind::go_compile, entry.number});
+  }
+  if (!entry.checkpoint || entry.checkpoint->empty()) return load_anew(state, entry, effects);
   work.going = entry.number;
-  if (!entry.scene->problem) return ask_compile(state, effects, entry.scene->text, {Kind::go_compile, entry.number});
-  load(state, effects, entry.scene->problem, {Kind::go, entry.number});
+  load(state, entry.scene->problem, {Kind::go, entry.number}, effects);
   work.unanswered = 1;
-  if (!entry.checkpoint) return ask_checkpoint(state, effects, entry.number);
   if (entry.checkpoint->find("\"checkpoint\":{") == std::string::npos) {
     for (int i = 0; i <= state.present; ++i) {
       for (const std::string& action : state.log[i].actions) {

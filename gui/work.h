@@ -32,9 +32,9 @@ struct Task {
 // What a request was for.
 struct Wanted {
   enum class Kind {
-    open_whole,  // compile: the file's text
-    open_head,   // ... up to its first action
-    open_load,
+    open_whole,   // compile: the file's text
+    open_head,    // ... up to its first action
+    load,         // of the problem of `entry`, whose motion is not known yet
     base,         // compile: the present entry's text, where its problem is not known to the line
     act_compile,  // ... with the act's
     act_do,       // problem/update and the act's actions
@@ -87,6 +87,7 @@ struct Work {
   int at = 0;
   int going = 0;          // where it is being led
   int failed = 0;         // where it could not be led
+  std::string unloaded;   // why it takes no problem yet: the scene is still being written
   bool restored = false;  // the present entry's text is still to be compiled
 
   // A drag.

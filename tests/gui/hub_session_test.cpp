@@ -203,6 +203,27 @@ TEST(HubSession, ASceneWithMistakesIsShownWithThem) {
   EXPECT_EQ(state.notices.size(), 1U);
 }
 
+TEST(HubSession, ASceneIsWrittenFromNothing) {
+  Hub hub(daemons());
+  open(hub, "time [0, 1]\n");
+  const State& state = hub.state();
+  for (const std::string line :
+       {"trajectory bspline spans 4", "dof x", "solve", "constrain start: (x, x') = 0 at 0",
+        "constrain goal: (x, x') = (1, 0) at 1", "minimize effort: integral(x''^2)", "solve"}) {
+    act(hub, line);
+  }
+  ASSERT_EQ(state.log.size(), 8U) << told(state);
+  EXPECT_EQ(state.motion->status, Status::converged);
+  EXPECT_NEAR(state.motion->objective, 12, 1e-9);
+  for (int i = 0; i < 7; ++i) post_and_wait(hub, Undo{});
+  EXPECT_EQ(state.present, 0);
+  EXPECT_FALSE(state.curves);
+  for (int i = 0; i < 7; ++i) post_and_wait(hub, Redo{});
+  EXPECT_NEAR(state.motion->objective, 12, 1e-9);
+  act(hub, "iterate 1");
+  EXPECT_EQ(state.log.size(), 9U) << told(state);
+}
+
 TEST(HubSession, TheConsoleAnswers) {
   Hub hub(daemons());
   open(hub, throw_text());
