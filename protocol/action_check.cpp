@@ -36,7 +36,9 @@ class Check {
   void action(const Solve& solve, const std::string& path) const {
     if (!(solve.tolerance > 0) || !std::isfinite(solve.tolerance)) fail(path + "/tolerance", "must be positive");
     if (solve.iterations.value_or(0) < 0) fail(path + "/iterations", "must not be negative");
-    if (solve.starts < 1) fail(path + "/starts", "must be at least 1");
+    if (solve.starts < 1 || solve.starts > limits::starts) {
+      fail(path + "/starts", "must be from 1 to " + std::to_string(limits::starts));
+    }
     if (solve.linear_cg && solve.method != Solve::Method::sqp92) {
       fail(path + "/linear_cg", "belongs to the method \"sqp92\" alone");
     }

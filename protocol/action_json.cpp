@@ -53,7 +53,7 @@ void read_members(const Node& node, Solve& solve) {
   if (const auto tolerance = node.find("tolerance")) solve.tolerance = tolerance->number();
   if (const auto method = node.find("method")) solve.method = static_cast<Solve::Method>(method->choice(methods));
   if (const auto linear = node.find("linear_cg")) solve.linear_cg = linear->boolean();
-  if (const auto starts = node.find("starts")) solve.starts = starts->integer(1);
+  if (const auto starts = node.find("starts")) solve.starts = starts->integer(1, limits::starts);
 }
 
 void write_members(Writer& to, const Iterate& iterate) { to.member("iterations", iterate.iterations); }

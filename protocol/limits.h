@@ -40,4 +40,7 @@ inline constexpr double evaluated_operations = 1e11;
 // How often one `refine` may halve a knot span; after so many halves a double has no middle left.
 inline constexpr int halvings = 52;
 
+// Starts of one `solve`: each keeps a motion and what is known at its end until all have ended.
+inline constexpr int starts = 10'000;
+
 }  // namespace spacetime::limits

@@ -181,6 +181,7 @@ TEST(Schemas, KnowTheOperationsAndTheLimits) {
   for (std::size_t i = 0; i < actions.size(); ++i) {
     EXPECT_EQ(actions[i]["properties"]["action"]["const"], action_names()[i]);
   }
+  EXPECT_EQ(actions[0]["properties"]["starts"]["maximum"], limits::starts);
   EXPECT_EQ(actions[3]["properties"]["times"]["maximum"], limits::halvings);
 }
 
