@@ -208,14 +208,6 @@ void go(State& state, Effects& effects) {
   work.going = entry.number;
   load(state, entry.scene->problem, {Kind::go, entry.number}, effects);
   work.unanswered = 1;
-  if (entry.checkpoint->find("\"checkpoint\":{") == std::string::npos) {
-    for (int i = 0; i <= state.present; ++i) {
-      for (const std::string& action : state.log[i].actions) {
-        ask_action(state, effects, action, {Kind::go, entry.number});
-        ++work.unanswered;
-      }
-    }
-  }
   Request request;
   request.method = "motion/set";
   request.params = "\"motion\":" + *entry.checkpoint;

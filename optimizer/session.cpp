@@ -61,6 +61,36 @@ bool replaces(const Edit& edit, const Action& before) {
   return false;
 }
 
+// Performs an edit on a problem that need not be the one it was made for; false where it makes no sense there.
+bool performed(Edited& edited, const Action& action) {
+  const auto perform = [&](const auto& edit) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(edit)>, Replace>) {
+      const auto fits = [&](const auto& list) {
+        return static_cast<std::size_t>(edit.with) < list.size() && list[edit.with].replacement &&
+               list[edit.with].name == edit.name;
+      };
+      if (!fits(edited.problem.constraints) && !fits(edited.problem.objective)) return false;
+    }
+    if constexpr (requires { apply(edited, edit); }) {
+      apply(edited, edit);
+      return true;
+    }
+    return false;
+  };
+  try {
+    return std::visit(perform, action);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// Whether two problems differ in nothing that iterations depend on.
+bool same_to_iterate(const Problem& a, const Problem& b) {
+  return a.start == b.start && a.end == b.end && a.constants == b.constants && a.parameters == b.parameters &&
+         a.dofs == b.dofs && a.functionals == b.functionals && a.constraints == b.constraints &&
+         a.objective == b.objective;
+}
+
 // What a motion's message has at its end.
 std::string remark_of(int pivoted) {
   return pivoted > 0 ? fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted) : "";
@@ -211,15 +241,36 @@ void Session::act(const Other& other, const Watch&) {
 
 void Session::update(Problem problem) {
   auto original = std::make_shared<const Problem>(std::move(problem));
+  // What has been edited stays so, as in a text whose later lines declare more; knots that a refinement chose, too.
   Edited next{*original, {}};
-  auto numerics = std::make_shared<Numerics>(in_effect(next, declared_), setting_);
-  const Motion reached = motion();
-  auto x = start_of(numerics->problem, numerics->whole, &reached);
+  std::vector<Action> kept;
+  for (const Action& edit : edits_) {
+    if (performed(next, edit)) kept.push_back(edit);
+  }
+  for (Dof& dof : next.problem.dofs) {
+    const auto declared = std::ranges::find(original_->dofs, dof.name, &Dof::name);
+    if (declared == original_->dofs.end() || declared->basis != dof.basis) continue;
+    dof.basis = edited_.problem.dofs[static_cast<std::size_t>(declared - original_->dofs.begin())].basis;
+  }
+  Problem effect = in_effect(next, declared_);
+  if (same_to_iterate(effect, now_->problem)) {
+    // More to look at, or to be named by later actions: nothing that the iterations know of.
+    now_->problem.programs.merge(effect.programs);
+    now_->problem.plots = std::move(effect.plots);
+    now_->problem.bodies = std::move(effect.bodies);
+    now_->problem.keyframes = std::move(effect.keyframes);
+  } else {
+    auto numerics = std::make_shared<Numerics>(std::move(effect), setting_);
+    const Motion reached = motion();
+    auto x = start_of(numerics->problem, numerics->whole, &reached);
+    const bool same_dofs = numerics->problem.dofs == now_->problem.dofs;
+    const auto dual = same_dofs ? std::optional(carried(now_->t(), now_->layout, state_, numerics->t())) : std::nullopt;
+    now_ = std::move(numerics);
+    restart(std::move(x), dual ? &*dual : nullptr);
+  }
   original_ = std::move(original);
   edited_ = std::move(next);
-  edits_.clear();
-  now_ = std::move(numerics);
-  restart(std::move(x));
+  edits_ = std::move(kept);
 }
 
 void Session::set_motion(const Motion& motion) {

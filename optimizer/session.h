@@ -51,7 +51,8 @@ class Session {
   // Throws InputError for what cannot be done; all is then as it was before.
   void perform(const Action& action, const Watch& watch = {});
 
-  // Another problem takes the place of this one; the motion goes on as far as names agree.  Throws InputError; all is
+  // Another problem takes the place of this one, and what has been edited is edited in it; the motion goes on as far as
+  // names agree, undisturbed where iterations do not depend on what differs.  Throws InputError; all is
   // then as it was before.
   void update(Problem problem);
 

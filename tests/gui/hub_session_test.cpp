@@ -173,6 +173,42 @@ TEST(HubSession, ADragLeavesOneEntryThatReplays) {
   expect_same_as_batch(hub);
 }
 
+TEST(HubSession, DeclarationsAmongActionsReplay) {
+  Hub hub(daemons());
+  open(hub, throw_text());
+  post_and_wait(hub, RunScript{});
+  act(hub, "set land = 1.65");
+  act(hub, "disable calm");
+  act(hub, "refine [0.8, 1.2]");
+  act(hub, "constrain low: at(arm.elbow, 0.5) = 0.1");
+  act(hub, "set BasketY = BasketX/4");
+  act(hub, "solve");
+  const State& state = hub.state();
+  EXPECT_EQ(state.log.size(), 8U) << told(state);
+  expect_same_as_batch(hub);
+  // Undone and done again it is the same.
+  const auto last = curves_text(*state.motion);
+  post_and_wait(hub, GoTo{3});
+  post_and_wait(hub, GoTo{6});
+  act(hub, "solve");
+  EXPECT_TRUE(curves_text(*state.motion) == last);
+}
+
+TEST(HubSession, AScriptOfSeveralActionsIsPerformedStatementByStatement) {
+  const std::string text = throw_text() +
+                           "set BasketX = 2.4; iterate 3  # a comment\nlet height = ball.Y  # shown\n\n"
+                           "shake amplitude 0.01 seed 3\nsolve iterations 40\n";
+  Hub hub(daemons());
+  open(hub, text);
+  const State& state = hub.state();
+  EXPECT_EQ(state.script.size(), 6U);
+  EXPECT_EQ(text_to_save(state), text);
+  post_and_wait(hub, RunScript{});
+  EXPECT_EQ(state.log.size(), 7U) << told(state);
+  EXPECT_EQ(text_to_save(state), text);
+  expect_same_as_batch(hub);
+}
+
 TEST(HubSession, MistakesInAnActAreToldAndChangeNothing) {
   Hub hub(daemons());
   open(hub, throw_text());
