@@ -68,6 +68,7 @@ struct Daemon {
 struct Steering {
   std::string line;                  // that would be written now: set BasketX = 2.71; set BasketY = 0.5
   std::vector<std::string> actions;  // the same, each as JSON
+  std::vector<std::pair<std::string, double>> constants{};  // that it sets
 };
 
 struct ConsoleLine {

@@ -73,6 +73,9 @@ std::pair<std::string, std::vector<std::string>> split(const Scene& scene) {
   return {scene.text.substr(0, cuts.front()), script};
 }
 
+// More curves than these at once are a tangle; the person chooses.
+constexpr std::size_t curves_shown_first = 6;
+
 void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effects) {
   Work& work = state.work;
   work.opening.reset();
@@ -86,6 +89,9 @@ void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effect
   if (!scene->problem) return;
   state.script = std::move(work.script);
   state.playback.time = scene->problem->start;
+  state.selection = {};
+  for (const Dof& dof : scene->problem->dofs)
+    if (state.selection.dofs.size() < curves_shown_first) state.selection.dofs.push_back(dof.name);
   load_anew(state, state.log.front(), effects);
   effects.push_back(JournalBegin{});
   effects.push_back(JournalLine{journal_begin(state)});

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/words.h"
+
 namespace spacetime::gui {
 
 Steering setting(const std::vector<std::pair<std::string, double>>& constants) {
   Steering out;
+  out.constants = constants;
   for (const auto& [name, value] : constants) {
     if (!out.line.empty()) out.line += "; ";
-    out.line += fmt::format("set {} = {}", name, written(value));
-    out.actions.push_back(fmt::format(R"({{"action":"set","constant":"{}","value":{}}})", name, written(value)));
+    const Words words = set_words(name, value);
+    out.line += words.line;
+    out.actions.push_back(words.action);
   }
   return out;
 }

@@ -118,7 +118,9 @@ void draw_optimisation(Ui& ui) {
   const State& s = ui.state;
   draw_choices(ui);
   ui.notices(Notice::Place::optimisation);
-  if (s.running) {
+  if (s.steering) {
+    ImGui::TextColored(ui.colours().accent, "Following the drag");
+  } else if (s.running) {
     ImGui::TextColored(ui.colours().accent, s.stopping ? "Stopping" : "Solving");
     if (!s.record.empty()) {
       ImGui::SameLine();

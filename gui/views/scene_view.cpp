@@ -253,7 +253,12 @@ void SceneView::draw(Ui& ui) {
   Resources& r = *resources_;
   r.know(s.scene->problem);
   r.fit(static_cast<int>(size.x), static_cast<int>(size.y));
-  const SceneMemory& m = ui.memory.scene;
+  SceneMemory& m = ui.memory.scene;
+  if (!s.log.empty() && m.framed_for != s.log.front().scene) {
+    m.framed_for = s.log.front().scene;
+    m.framed = false;
+    if (!planar(r.figures->bounds(motion_of(s, false)))) m.camera = looking(View::free, m.camera);
+  }
   if (!m.framed) frame_all(ui, *r.figures, motion_of(s, false), size);
   Picture picture = picture_of(s, ui.question(), ui.residuals(), *r.figures, {m.trails, m.ghosts, m.forces, m.marks});
   picture.ground_height = m.ground;

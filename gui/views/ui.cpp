@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "gui/words.h"
+
 namespace spacetime::gui {
 
 const Question& Ui::question() const {
@@ -12,6 +14,11 @@ const Question& Ui::question() const {
     memory.question = state.scene ? question_of(*state.scene) : Question{};
     memory.measured = -1;
   }
+  // What the optimizer has is newer than what the text says, and what is being dragged newer still.
+  if (state.curves)
+    for (const auto& [name, value] : state.curves->constants) memory.question.constants[name] = value;
+  if (state.steering)
+    for (const auto& [name, value] : state.steering->constants) memory.question.constants[name] = value;
   return memory.question;
 }
 
@@ -56,7 +63,7 @@ void Ui::notices(Notice::Place place, const std::string& about) {
   }
 }
 
-std::string written(double number) { return fmt::format("{}", number); }
+std::string written(double number) { return number_text(number); }
 
 std::string shown(double number) {
   if (!std::isfinite(number)) return "no number";

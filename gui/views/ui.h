@@ -36,8 +36,8 @@ struct CurvesMemory {
 struct SceneMemory {
   Camera camera{.pitch = 0.12F};  // a little from above, so that the ground is seen
   float ground = 0;               // m, under the lowest that the figure comes
-  bool framed = false;            // the camera has been put in front of the scene
-  std::string framed_for;
+  bool framed = false;                      // the camera has been put in front of the scene
+  std::shared_ptr<const Scene> framed_for;  // as it was opened
   bool trails = true, ghosts = true, forces = false, marks = true;
   bool follow_plane = true;  // drag within the picture's plane
   std::string dragging;      // a place or a body's point

@@ -61,8 +61,8 @@ TEST(Window, AThrowIsMadeChangedUndoneSavedAndTheSameInABatch) {
   d.hub().post(gui::SetPlayback{playback});
   d.frame(2);
   const gui::Rect scene = d.place("scene");
-  const auto hand = d.place("part arm.fore");
-  d.drag("part arm.fore", 0, scene.y + 0.3F * scene.height - hand.y, 12);
+  const auto hand = d.place("part arm.upper");
+  d.drag("part arm.upper", 0, scene.y + 0.35F * scene.height - hand.y, 12);
   ASSERT_TRUE(d.state().pose.has_value());
   d.save_picture("throw-5-posed.png");
   d.key(GLFW_KEY_K);
