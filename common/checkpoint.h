@@ -74,6 +74,10 @@ struct Checkpoint {
     double radius = 0;          // most change of a coefficient while the model does not hold
     double restore_from = 0;    // while the violation alone is reduced: its sum where that began
     double damping = 0;         // of those steps
+    bool curved = false;        // whether they take the violations' own curvature in
+    double least_sum = 0;       // the violation that is to be improved upon, and for how many steps it has not been
+    int without_progress = 0;
+    std::vector<double> proposed;  // multipliers of equations, where the step's are better than the least-squares ones
     bool operator==(const Newton&) const = default;
   };
 

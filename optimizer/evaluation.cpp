@@ -22,12 +22,13 @@ struct Outputs {
 };
 
 // What multiplies an output of a summed batch in the Lagrangian, for its program's multiplier inputs.
-double multiplier_of(const Transcription& t, const Target& target, std::span<const double> multipliers) {
+double multiplier_of(const Transcription& t, const Target& target, std::span<const double> multipliers,
+                     double of_objective) {
   switch (target.kind) {
     case Target::Kind::nowhere:
       break;
     case Target::Kind::objective:
-      return target.factor;
+      return of_objective * target.factor;
     case Target::Kind::functional:
       return -multipliers[t.functional_row[target.index]];  // the row is z - F
   }
@@ -44,9 +45,10 @@ SPACETIME_CLONES void gather(const BasisValues* basis, const double* x, int orig
   }
 }
 
-// Runs a batch at x.  Multiplier inputs are read only for Depth::hessian; others see zero.
+// Runs a batch at x.  Multiplier inputs are read only for Depth::hessian; others see zero.  `of_objective` multiplies
+// the objective, soft rows among it.
 Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<const double> x, const Values* values,
-            std::span<const double> multipliers, Workspace& w) {
+            std::span<const double> multipliers, Workspace& w, double of_objective = 1) {
   const int samples = batch.samples(), outputs = batch.outputs();
   const auto& inputs = batch.program->inputs;
   // Rows a multiple of a cache line long, and never a multiple of the page: those would share cache sets.
@@ -76,13 +78,13 @@ Outputs run(const Transcription& t, const Batch& batch, Depth depth, std::span<c
         if (depth != Depth::hessian) {
           *to = 0;
         } else if (batch.summed()) {
-          *to = multiplier_of(t, batch.targets[input.index], multipliers);
+          *to = multiplier_of(t, batch.targets[input.index], multipliers, of_objective);
         } else {
           w.uniform[i] = 0;
           for (int s = 0; s < samples; ++s) {
             const int row = batch.first_row + s * outputs + input.index;
             to[s] = t.rows[row].kind == Row::Kind::soft
-                        ? t.rows[row].weight * excess(t.rows[row], values->residual[row])
+                        ? of_objective * t.rows[row].weight * excess(t.rows[row], values->residual[row])
                         : multipliers[row];
           }
         }
@@ -326,6 +328,18 @@ void add_row_curvature(const Transcription& t, const Layout& layout, std::span<c
   for (const Batch& batch : t.batches) {
     if (!needs_multipliers(batch) || batch.program->hessian.empty()) continue;
     add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &values, multipliers, workspace), result.hessian,
+                active);
+  }
+}
+
+void set_violation_curvature(const Transcription& t, const Layout& layout, std::span<const double> x,
+                             std::span<const double> multipliers, Workspace& workspace, BorderedMatrix& curvature,
+                             std::span<const char> active) {
+  const Values none{0, {}, std::vector<double>(t.rows.size(), 0.0)};
+  curvature.set_zero();
+  for (const Batch& batch : t.batches) {
+    if (!needs_multipliers(batch) || batch.program->hessian.empty()) continue;
+    add_hessian(t, layout, batch, run(t, batch, Depth::hessian, x, &none, multipliers, workspace, 0), curvature,
                 active);
   }
 }

@@ -59,6 +59,11 @@ void add_row_curvature(const Transcription& transcription, const Layout& layout,
                        const Values& values, std::span<const double> multipliers, Workspace& workspace,
                        Linearisation& result, std::span<const char> active = {});
 
+// The Hessian of sum multiplier c over hard rows alone.
+void set_violation_curvature(const Transcription& transcription, const Layout& layout, std::span<const double> x,
+                             std::span<const double> multipliers, Workspace& workspace, BorderedMatrix& curvature,
+                             std::span<const char> active = {});
+
 // Sets the unknowns of functionals to the functionals' values, in order.
 void settle_functionals(const Transcription& transcription, std::vector<double>& x, Workspace& workspace);
 

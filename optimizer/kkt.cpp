@@ -27,6 +27,9 @@ constexpr double shift_unit = 1e-3;
 constexpr double first_shift = 1e-2, least_shift = 1e-4, most_shift = 1e12;
 constexpr double first_growth = 10, growth = 3;
 
+// A row that is not wanted takes no part: so compliant that it asks nothing.
+constexpr double unasked = 1e30;
+
 // Refinement ends when the residual is this small against the right side, or stops falling by half.
 constexpr double small_residual = 1e-13, acceptable_residual = 1e-6;
 constexpr int max_refinements = 8;
@@ -170,12 +173,23 @@ bool Kkt::factor_feasibility(const Linearisation& linear, const Eigen::VectorXd&
                              double damping) {
   exact_ = linear.jacobian;
   for (int k = 0; k < exact_.size(); ++k) {
-    // A row that is not wanted takes no part: so compliant that it asks nothing.
-    exact_.add(k, k, role_[k] == Role::unknown ? 1 : wanted[k] != 0 ? -damping * sizes[k] : -1e30);
+    exact_.add(k, k, role_[k] == Role::unknown ? 1 : wanted[k] != 0 ? -damping * sizes[k] : -unasked);
   }
   vanishing_ = Eigen::VectorXd::Zero(exact_.size());
   shift_ = 0;
   return regularise_and_factor(0);
+}
+
+bool Kkt::factor_feasibility(const Linearisation& linear, const BorderedMatrix& curvature,
+                             const Eigen::VectorXd& wanted, const Eigen::VectorXd& sizes, double damping) {
+  exact_ = linear.jacobian;
+  exact_ += curvature;
+  for (int k = 0; k < exact_.size(); ++k) {
+    exact_.add(k, k, role_[k] == Role::unknown ? damping : wanted[k] != 0 ? -sizes[k] : -unasked);
+  }
+  vanishing_ = Eigen::VectorXd::Zero(exact_.size());
+  shift_ = 0;
+  return regularise_and_factor(0) && factorisation_.negative() == rows_;
 }
 
 std::optional<Eigen::VectorXd> Kkt::solve(const Eigen::VectorXd& right) const {

@@ -44,6 +44,15 @@ class Kkt {
   bool factor_feasibility(const Linearisation& linear, const Eigen::VectorXd& wanted, const Eigen::VectorXd& sizes,
                           double damping);
 
+  // The same step with the violations' own curvature: that of half the sum of c^2 / sizes, to second order.
+  //
+  //   [ curvature + damping I   A^T    ] [ d  ]     [ 0 ]
+  //   [ A                       -sizes ] [ l+ ] = - [ c ]
+  //
+  // False as well where this has no minimum.
+  bool factor_feasibility(const Linearisation& linear, const BorderedMatrix& curvature, const Eigen::VectorXd& wanted,
+                          const Eigen::VectorXd& sizes, double damping);
+
   // Solves with what was factored last, refined against the matrix without its vanishing regularisation.  Nothing where
   // the residual stays large.
   std::optional<Eigen::VectorXd> solve(const Eigen::VectorXd& right) const;

@@ -23,6 +23,9 @@ constexpr double first_mu = 0.1, barrier_error = 10, mu_factor = 0.2, mu_power =
 // this part.
 constexpr double warm_mu = 1e-4, warm_push = 1e-8;
 
+// Multipliers other than the least-squares ones are taken where they leave less than this of the gradient's square.
+constexpr double much_better = 0.25;
+
 // A soft inequality that is met: so compliant that it asks nothing.
 constexpr double inert = 1e30;
 
@@ -70,6 +73,29 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   return largest;
 }
 
+// The least-squares multipliers are known to what regularisation leaves of them: where rows nearly depend on one
+// another they may cancel less of the gradient than those the step was made with, which are then taken.
+void Newton::take_better_multipliers(NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd& lambda) const {
+  if (state.proposed.size() == 0) return;
+  const auto of_equations = [&](Eigen::VectorXd multipliers) {
+    for (int k = 0; k < layout_.size(); ++k) {
+      if (!kkt_.is_equation(k)) multipliers[k] = 0;
+    }
+    return multipliers;
+  };
+  const auto squares_left = [&](const Eigen::VectorXd& multipliers) {
+    const Eigen::VectorXd left = pulled + multiply(state.linear.jacobian, of_equations(multipliers));
+    double sum = 0;
+    for (const int u : layout_.free) sum += left[layout_.of_unknown[u]] * left[layout_.of_unknown[u]];
+    return sum;
+  };
+  if (squares_left(state.proposed) < much_better * squares_left(lambda)) {
+    lambda = state.proposed;
+  } else {
+    state.proposed.resize(0);
+  }
+}
+
 // Derivatives, multipliers and measures at state.x.
 void Newton::judge(NewtonState& state) {
   const Eigen::VectorXd c = residual_of(state.values);
@@ -103,6 +129,7 @@ void Newton::judge(NewtonState& state) {
   }
   state.condition = StepResult::singular;
   if (!lambda) return;
+  take_better_multipliers(state, pulled, *lambda);
   Eigen::VectorXd of_equations = Eigen::VectorXd::Zero(layout_.size());
   const Eigen::VectorXd weights = soft_weights(c);
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
@@ -231,6 +258,9 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
   if (state.condition != StepResult::stepped) return state.condition;
   if (state.restore_from > 0) return restore(state, tolerance);
   lower_barrier(state, tolerance);
+  if (stalls(state, tolerance)) {
+    return begin_restoration(state, state.values.objective + limits_.value(state.x, state.barrier), tolerance);
+  }
 
   const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
   Eigen::VectorXd right =

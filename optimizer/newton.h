@@ -54,7 +54,11 @@ struct NewtonState {
   double radius = 0;          // limit on the change of a coefficient while the model does not hold
   double restore_from = 0;    // while the violation alone is reduced: its sum where that began
   double damping = 0;         // of those steps
+  bool curved = false;        // whether they take the violations' own curvature in
   Eigen::VectorXd sizes;      // of rows, at the last of those steps: violations are compared over their square roots
+  double least_sum = 0;       // of violations, that a later step must fall below to be progress
+  int without_progress = 0;   // steps since then
+  Eigen::VectorXd proposed;   // the last step's multipliers, where they are better than the least-squares ones
   int iterations = 0;
 
   double step = 0, shift_used = 0;  // of the last step: largest change of a coefficient, correction
@@ -103,6 +107,7 @@ class Newton {
 
   // newton.cpp
   void judge(NewtonState& state);
+  void take_better_multipliers(NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd& lambda) const;
   void move_inside(NewtonState& state);
   void settle_conditions(NewtonState& state);
   void lower_barrier(NewtonState& state, double tolerance) const;
@@ -121,7 +126,10 @@ class Newton {
   std::optional<Trial> corrected(NewtonState& state, const Model& model, const Trial& trial, double length);
   Barrier moved(const NewtonState& state, const Model& model, double length) const;
   StepResult search(NewtonState& state, const Model& model, double tolerance);
+  bool stalls(NewtonState& state, double tolerance) const;
+  StepResult begin_restoration(NewtonState& state, double merit, double tolerance);
   StepResult restore(NewtonState& state, double tolerance);
+  BorderedMatrix violation_curvature(NewtonState& state, const Eigen::VectorXd& violation) const;
   Eigen::VectorXd sizes_of_statements(const NewtonState& state) const;
   void accept(NewtonState& state, Trial trial);
 

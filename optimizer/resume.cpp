@@ -10,14 +10,15 @@ namespace {
 
 // Positions of hard inequalities and of bounded unknowns, rows that have a condition: in the order of instances.
 struct Places {
-  std::vector<int> limits, lower, upper;
+  std::vector<int> limits, equations, lower, upper;
   std::vector<int> conditional;  // rows
 };
 
 Places places_of(const Transcription& t, const Layout& layout) {
   Places places;
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
-    if (t.rows[r].kind == Row::Kind::hard && t.rows[r].at_most) places.limits.push_back(layout.of_row[r]);
+    if (t.rows[r].kind == Row::Kind::soft) continue;
+    (t.rows[r].at_most ? places.limits : places.equations).push_back(layout.of_row[r]);
   }
   for (const int u : layout.free) {
     if (std::isfinite(t.lower[u])) places.lower.push_back(layout.of_unknown[u]);
@@ -75,6 +76,10 @@ Checkpoint::Newton kept(const Transcription& t, const Layout& layout, const Newt
   kept.radius = state.radius;
   kept.restore_from = state.restore_from;
   kept.damping = state.damping;
+  kept.curved = state.curved;
+  kept.least_sum = state.least_sum;
+  kept.without_progress = state.without_progress;
+  if (state.proposed.size() > 0) kept.proposed = taken(state.proposed, places.equations);
   return kept;
 }
 
@@ -109,6 +114,12 @@ NewtonState brought_back(const Transcription& t, const Layout& layout, const Che
   state.radius = kept.radius;
   state.restore_from = kept.restore_from;
   state.damping = kept.damping;
+  state.curved = kept.curved;
+  state.least_sum = kept.least_sum;
+  state.without_progress = kept.without_progress;
+  if (!kept.proposed.empty()) {
+    state.proposed = put(kept.proposed, places.equations, layout, "/checkpoint/newton/proposed");
+  }
   return state;
 }
 

@@ -26,11 +26,17 @@ constexpr double small_violation_factor = 1e-4;
 constexpr int corrections = 2;     // second-order corrections tried at each length
 constexpr double fair_price = 10;  // times sum |lambda c|: most that reducing a small violation may cost
 
+// A violation above the small ones that has not fallen to `progress` of its least within so many steps is better
+// reduced by itself.
+constexpr double progress = 0.9;
+constexpr int patience = 25;
+
 // Restoration ends once the violation has fallen to this fraction; its damping grows and shrinks by tens; the violation
 // is stationary where no damping promises to take this fraction off its square.
 constexpr double restored = 0.9;
 constexpr double first_damping = 1e-8, most_damping = 1e12;
 constexpr double stationary_violation = 1e-7;
+constexpr double large_residual = 0.8;  // what more than this of the square promises to vanish needs no curvature
 constexpr double shortest_restoring_step = 1e-3;
 
 }  // namespace
@@ -146,10 +152,7 @@ StepResult Newton::search(NewtonState& state, const Model& model, double toleran
     length /= 2;
     if (length < shortest_step) {
       if (state.measures.violation <= tolerance) return StepResult::exhausted;
-      state.filter.add(violation, model.merit);
-      state.restore_from = violation;
-      state.damping = first_damping;
-      return restore(state, tolerance);
+      return begin_restoration(state, model.merit, tolerance);
     }
     trial = try_length();
     said = verdict(state, model, trial, length);
@@ -165,6 +168,7 @@ StepResult Newton::search(NewtonState& state, const Model& model, double toleran
       if (!good) state.radius = std::max(state.radius / radius_growth, first_radius);
     }
   }
+  state.proposed = model.multipliers;
   accept(state, std::move(trial));
   return StepResult::stepped;
 }
@@ -195,9 +199,48 @@ Eigen::VectorXd Newton::sizes_of_statements(const NewtonState& state) const {
   return sizes;
 }
 
+// Whether the steps have stopped to reduce the violation.
+bool Newton::stalls(NewtonState& state, double tolerance) const {
+  const double sum = state.measures.sum;
+  if (state.least_sum == 0 || sum <= progress * state.least_sum) {
+    state.least_sum = sum;
+    state.without_progress = 0;
+    return false;
+  }
+  const bool small = sum <= small_violation_factor * state.most_violation || state.measures.violation <= tolerance;
+  if (++state.without_progress < patience || small) return false;
+  state.least_sum = sum;
+  state.without_progress = 0;
+  return true;
+}
+
+StepResult Newton::begin_restoration(NewtonState& state, double merit, double tolerance) {
+  state.filter.add(state.measures.sum, merit);
+  state.restore_from = state.measures.sum;
+  state.damping = first_damping;
+  state.curved = false;
+  state.radius = first_radius;
+  state.proposed.resize(0);
+  return restore(state, tolerance);
+}
+
+// The second derivatives of half the sum of squared violations that go with the violations themselves.
+BorderedMatrix Newton::violation_curvature(NewtonState& state, const Eigen::VectorXd& violation) const {
+  const Stopwatch watch(state.seconds.evaluate);
+  std::vector<double> weights(t_.rows.size());
+  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
+    weights[r] = violation[layout_.of_row[r]] / state.sizes[layout_.of_row[r]];
+  }
+  BorderedMatrix curvature(layout_.pattern);
+  set_violation_curvature(t_, layout_, state.x, weights, workspace_, curvature, state.active);
+  return curvature;
+}
+
 // One Levenberg-Marquardt step on half the sum of squared violations, until the filter takes the point and the
 // violation has fallen.  Each is taken over its statement's size: what units a constraint is written in must not decide
-// whether a step is an improvement.
+// whether a step is an improvement.  Where what cannot be removed is large, the Gauss-Newton matrix alone creeps
+// towards the least of it: the violations' own curvature is added as soon as that predicts better [Dennis, Gay and
+// Welsch 1981].
 StepResult Newton::restore(NewtonState& state, double tolerance) {
   const auto violations = [&](const Values& values) {
     Eigen::VectorXd v = Eigen::VectorXd::Zero(layout_.size());
@@ -210,12 +253,15 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
   state.sizes = sizes_of_statements(state);
   const auto squares_of = [&](const Eigen::VectorXd& v) { return v.cwiseAbs2().cwiseQuotient(state.sizes).sum(); };
   const double squares = squares_of(violation);
+  const BorderedMatrix curvature = violation_curvature(state, violation);
   for (; state.damping <= most_damping; state.damping *= 10) {
     std::optional<Eigen::VectorXd> solution;
     {
       const Stopwatch watch(state.seconds.factor);
-      if (kkt_.factor_feasibility(state.linear, violation, state.sizes, state.damping))
-        solution = kkt_.solve(-violation);
+      const bool factored =
+          state.curved ? kkt_.factor_feasibility(state.linear, curvature, violation, state.sizes, state.damping)
+                       : kkt_.factor_feasibility(state.linear, violation, state.sizes, state.damping);
+      if (factored) solution = kkt_.solve(-violation);
     }
     if (!solution) continue;
     Eigen::VectorXd d = *solution;
@@ -223,7 +269,8 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
       if (kkt_.is_row(k)) d[k] = 0;
     }
     // Of half the sum of squares along d.
-    const double slope = violation.cwiseQuotient(state.sizes).dot(multiply(state.linear.jacobian, d));
+    const Eigen::VectorXd along = multiply(state.linear.jacobian, d);
+    const double slope = violation.cwiseQuotient(state.sizes).dot(along);
     if (!(slope < -stationary_violation * squares)) continue;
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(layout_.size());
     const double room = limits_.change(state.x, state.barrier, -state.barrier.slack, zero, d).most_primal;
@@ -233,14 +280,29 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
       if (!trial.values.finite) continue;
       const double remaining = squares_of(violations(trial.values));
       if (!(remaining <= squares + 2 * sufficient_decrease * length * slope)) continue;
+      double straight = 0;
+      for (int k = 0; k < layout_.size(); ++k) {
+        if (violation[k] != 0) straight += along[k] * along[k] / state.sizes[k];
+      }
+      const double missed = (remaining - squares) / 2 - length * slope - length * length / 2 * straight;
+      const double bend = length * length / 2 * d.dot(multiply(curvature, d));
+      state.curved = -slope < large_residual * squares && std::abs(missed - bend) < std::abs(missed);
+      const double error = std::min(std::abs(missed - bend), std::abs(missed));
+      if (error <= good_model_error * (squares - remaining) / 2) state.radius *= radius_growth;
       trial.barrier = limits_.start(trial.x, residual_of(trial.values), state.barrier.mu);
       trial.sum = filter_sum(residual_of(trial.values), trial.barrier);
       trial.merit = trial.values.objective + limits_.value(trial.x, trial.barrier);
       state.damping = std::max(state.damping / 10, first_damping);
       state.shift_used = 0;
       const bool enough = trial.sum <= std::max(restored * state.restore_from, tolerance);
-      if (enough && state.filter.admits(trial.sum, trial.merit)) state.restore_from = 0;
+      const bool over = enough && state.filter.admits(trial.sum, trial.merit);
       accept(state, std::move(trial));
+      const bool nothing_left = state.measures.violation <= tolerance;
+      if (!over && nothing_left) state.filter.clear();
+      if (over || nothing_left) {
+        state.restore_from = 0;
+        state.radius = first_radius;
+      }
       return StepResult::stepped;
     }
   }

@@ -10,7 +10,7 @@
 namespace spacetime {
 namespace {
 
-constexpr int most_shakes = 1'000'000'000;  // seeds are integers
+constexpr int most_count = 1'000'000'000;  // seeds are integers
 constexpr int most_switches = 127;
 
 // Throws what it finds.  Of a motion that failed numbers may be missing.
@@ -56,6 +56,9 @@ void check(const Checkpoint::Newton& newton, const Check& all, const std::string
   all.not_negative(newton.radius, path + "/radius");
   all.not_negative(newton.restore_from, path + "/restore_from");
   all.not_negative(newton.damping, path + "/damping");
+  all.not_negative(newton.least_sum, path + "/least_sum");
+  all.count(newton.without_progress, most_count, path + "/without_progress");
+  all.numbers(newton.proposed, path + "/proposed");
   if (newton.restore_from > 0 && newton.damping == 0) {
     fail(path + "/damping", "must be positive while the violation is reduced");
   }
@@ -94,7 +97,7 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
     all.number(limit, own);
     if (!(limit > 0)) fail(own, "must be positive");
   }
-  all.count(checkpoint.shakes, most_shakes, path + "/shakes");
+  all.count(checkpoint.shakes, most_count, path + "/shakes");
   if (checkpoint.start) check(*checkpoint.start, all, path + "/start");
   all.numbers(checkpoint.functionals, path + "/functionals");
   if (const auto& outside = checkpoint.outside) {

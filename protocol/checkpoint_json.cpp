@@ -34,6 +34,11 @@ void write(const Measures& measures, const Checkpoint::Newton& newton) {
         to.member("radius", newton.radius);
         to.member("restore_from", newton.restore_from);
         to.member("damping", newton.damping);
+        to.member("curved", newton.curved);
+        to.member("least_sum", newton.least_sum);
+        to.member("without_progress", newton.without_progress);
+        to.key("proposed");
+        to.numbers(newton.proposed);
       },
       Set::in_lines);
 }
@@ -42,7 +47,8 @@ std::vector<double> measures_from(const Node& node) { return node.each(measure_f
 
 Checkpoint::Newton newton_from(const Node& node) {
   node.object({"mu", "slacks", "multipliers", "lower", "upper", "outside", "active", "switches", "filter",
-               "filter_limit", "most_violation", "shift", "radius", "restore_from", "damping"});
+               "filter_limit", "most_violation", "shift", "radius", "restore_from", "damping", "curved", "least_sum",
+               "without_progress", "proposed"});
   Checkpoint::Newton newton;
   newton.mu = node["mu"].number();
   newton.slacks = measures_from(node["slacks"]);
@@ -62,6 +68,10 @@ Checkpoint::Newton newton_from(const Node& node) {
   newton.radius = node["radius"].number();
   newton.restore_from = node["restore_from"].number();
   newton.damping = node["damping"].number();
+  newton.curved = node["curved"].boolean();
+  newton.least_sum = node["least_sum"].number();
+  newton.without_progress = node["without_progress"].integer();
+  newton.proposed = node["proposed"].numbers();
   return newton;
 }
 

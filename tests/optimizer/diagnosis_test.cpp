@@ -125,6 +125,15 @@ TEST(Conflict, OutOfReach) {
   expect_silent(motion, {"'rest'"});
 }
 
+// A hand that should be where no arm reaches, in a throw that could do all else: told soon.
+TEST(Conflict, IsFoundSoon) {
+  std::string scene = file_text("examples/throw.scene");
+  scene.insert(scene.find("constrain held"), "constrain far: (arm.hand.x, arm.hand.y) = (2, 0.3)  at 0.5\n");
+  const Motion motion = run_scene(scene);
+  expect_said(motion, Status::infeasible, {"'far'"});
+  EXPECT_LE(motion.iterations, 150);
+}
+
 TEST(Conflict, OutOfReachBothWays) {
   const Motion motion = run_scene(
       arm + "constrain goal: (arm.hand.x, arm.hand.y) = (3, 4) at 1\nminimize integral(dot(arm.q'', arm.q''))\n");

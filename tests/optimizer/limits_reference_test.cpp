@@ -46,6 +46,13 @@ TEST(LimitsReference, AnAcrobatFlipsWithoutPullingOnTheGround) {
   EXPECT_LT(motion.objective, 41053.98874);  // the reference's, which holds still where this one may crouch
 }
 
+TEST(LimitsReference, AnAcrobatJumpsWithoutPullingOnTheGround) {
+  const Motion motion = run_scene(file_text("examples/acrobat_jump.scene"));
+  EXPECT_EQ(motion.status, Status::converged) << motion.message;
+  EXPECT_LE(motion.violation, 1e-8);
+  EXPECT_LT(motion.objective, 34463.84096);  // the reference's, which pulls with 965 N and sinks 0.56 m into the ground
+}
+
 // A floor that ends at x = 1: from ten shaken starts the same motion, over the edge and down.
 TEST(LimitsReference, AFloorThatEnds) {
   for (int seed = 1; seed <= 10; ++seed) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "optimizer/evaluation.h"
 #include "optimizer/freedom.h"
@@ -194,6 +195,35 @@ TEST(Window, Refusals) {
   EXPECT_NE(message("window [0.5, 0.8]\nsolve\n").find("nothing is free in the window"), std::string::npos);
   EXPECT_NE(message("window [0.5, 1]\ncontrol x 0 = 1\n").find("coefficient 0 of 'x' is not free in the window"),
             std::string::npos);
+}
+
+double value_of(const Motion& motion, int dof, double t) {
+  const Trajectory& trajectory = motion.dofs[dof];
+  return value(trajectory.basis, trajectory.coefficients, t);
+}
+
+// The largest distance of hand and ball around the release, between instances too.
+double largest_gap(const Motion& motion) {
+  double largest = 0;
+  for (int k = 0; k <= 400; ++k) {
+    const double t = 0.7 + 0.001 * k;
+    const double upper = value_of(motion, 0, t) - std::numbers::pi / 2;
+    const double fore = upper + value_of(motion, 1, t), palm = fore + value_of(motion, 2, t);
+    const double x = 0.5 * std::cos(upper) + 0.4 * std::cos(fore) + 0.2 * std::cos(palm);
+    const double y = 0.5 * std::sin(upper) + 0.4 * std::sin(fore) + 0.2 * std::sin(palm);
+    largest = std::max(largest, std::hypot(x - value_of(motion, 3, t), y - value_of(motion, 4, t)));
+  }
+  return largest;
+}
+
+// [Cohen 1992, section 5.1]
+TEST(Window, TightensTheGripAtLeastTwentyfold) {
+  const std::string scene = file_text("examples/throw_window.scene");
+  const Motion coarse = run_scene(scene.substr(0, scene.find("refine"))), tight = run_scene(scene);
+  EXPECT_EQ(coarse.status, Status::converged) << coarse.message;
+  EXPECT_EQ(tight.status, Status::converged) << tight.message;
+  EXPECT_LE(tight.violation, 1e-8);
+  EXPECT_LT(20 * largest_gap(tight), largest_gap(coarse));
 }
 
 }  // namespace

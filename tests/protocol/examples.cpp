@@ -292,7 +292,8 @@ Motion rich_motion() {
   checkpoint.last_shift = 1e-3;
   checkpoint.pivoted = 1;
   checkpoint.newton = {1e-3,   {1, 2}, {3e-4, 5e-4}, {0.5}, {0.25, 0.125}, true, {1, 0}, {0, 3}, {{1, 2}, {0.5, 2.5}},
-                       1.25e4, 1.25,   0.01,         0.6,   0.5,           1e-8};
+                       1.25e4, 1.25,   0.01,         0.6,   0.5,           1e-8, true,   2.5,    7,
+                       {-3, 4}};
   checkpoint.sqp92 = {{1, -2}, {1, 2}};
   motion.checkpoint = checkpoint;
   return motion;

@@ -431,11 +431,13 @@ Checkpoint random_checkpoint(std::mt19937& random, const Motion& motion) {
   checkpoint.last_shift = value();
   checkpoint.pivoted = below(random, 9);
   const auto flag = [&] { return below(random, 2); };
-  checkpoint.newton = {size(),     list(size), list(size),
-                       list(size), list(size), coin(random),
-                       list(flag), list(flag), list([&] { return Checkpoint::Newton::Entry{value(), value()}; }),
-                       size(),     size(),     size(),
-                       size(),     size(),     1.5};
+  checkpoint.newton = {size(),       list(size), list(size),
+                       list(size),   list(size), coin(random),
+                       list(flag),   list(flag), list([&] { return Checkpoint::Newton::Entry{value(), value()}; }),
+                       size(),       size(),     size(),
+                       size(),       size(),     1.5,
+                       coin(random), size(),     below(random, 9),
+                       list(value)};
   if (coin(random)) {
     checkpoint.sqp92 = {list(value), list(size)};
   } else if (coin(random)) {
