@@ -42,6 +42,8 @@ void Screen::key(int glfw_key, bool down) {
 
 void Screen::type(const std::string& text) { ImGui::GetIO().AddInputCharactersUTF8(text.c_str()); }
 
+void Screen::finish() { glFinish(); }
+
 std::vector<Event> Screen::frame(const State& state, double seconds) {
   std::vector<Event> events;
   ImGui::GetIO().DeltaTime = static_cast<float>(seconds);

@@ -32,6 +32,7 @@ class Screen {
 
   Memory& memory() { return memory_; }
   Image image() { return target_.read(); }
+  void finish();  // waits until all is drawn, which OpenGL does in its own time
 
  private:
   Offscreen offscreen_;

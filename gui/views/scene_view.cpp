@@ -1,10 +1,12 @@
 #include "gui/views/scene_view.h"
 
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <string_view>
 
 #include "common/bspline.h"
 #include "gui/inverse_kinematics.h"
@@ -37,10 +39,18 @@ std::optional<glm::vec3> meet(const Ray& ray, const glm::vec3& point, const Came
   return ray.origin + ray.direction * (glm::dot(point - ray.origin, normal) / along);
 }
 
+bool is_software() {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name ? name : "";
+  return renderer.find("llvmpipe") != std::string_view::npos || renderer.find("softpipe") != std::string_view::npos;
+}
+
 }  // namespace
 
 struct SceneView::Resources {
   Renderer renderer;
+  // Where the processor draws, smooth edges would cost more than all the rest.
+  const bool on_processor = is_software();
   std::unique_ptr<Target> target;
   std::shared_ptr<const Problem> problem;
   std::unique_ptr<Figures> figures;
@@ -48,7 +58,7 @@ struct SceneView::Resources {
 
   void fit(int width, int height) {
     if (!target || target->width() != width || target->height() != height)
-      target = std::make_unique<Target>(width, height, 4);
+      target = std::make_unique<Target>(width, height, on_processor ? 1 : 4);
   }
   void know(const std::shared_ptr<const Problem>& wanted) {
     if (problem == wanted) return;
@@ -232,8 +242,12 @@ void draw_words(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
 }
 
 void draw_nothing(Ui& ui, const glm::vec2& size) {
-  const bool open = ui.state.scene != nullptr;
-  const char* text = open ? "The scene has mistakes: its text says where." : "Open a scene, or begin with an example.";
+  const State& s = ui.state;
+  const bool open = s.scene != nullptr || s.work.opening;
+  const char* text = !open                         ? "Open a scene, or begin with an example."
+                     : s.work.opening              ? "The scene is being compiled."
+                     : s.scene && s.scene->problem ? "Waiting for the optimizer."
+                                                   : "The scene has mistakes: its text says where.";
   const ImVec2 extent = ImGui::CalcTextSize(text);
   ImGui::SetCursorPos({(size.x - extent.x) / 2, size.y / 2 - extent.y});
   ImGui::TextDisabled("%s", text);

@@ -1,12 +1,18 @@
 #include "gui/views/ui.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
 #include "gui/words.h"
 
 namespace spacetime::gui {
+namespace {
+
+constexpr float help_delay = 0.6F;  // s
+
+}  // namespace
 
 const Question& Ui::question() const {
   if (memory.asked != state.scene) {
@@ -41,6 +47,9 @@ void Ui::here(const std::string& name) {
 void Ui::help(const char* text) const {
   // A disabled control needs its help most.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  // Not at once: what it covers may be where the mouse is going.
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (context.HoveredId != 0 && context.HoveredIdTimer < help_delay) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(scaled(340));
   ImGui::TextUnformatted(text);

@@ -1,8 +1,8 @@
 // The views, drawn without a window: every one of them in both sizes and themes, and the controls in them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 
 #include "common/files.h"
 #include "common/sample.h"
@@ -40,22 +40,63 @@ State solved(const std::string& name) {
   return state;
 }
 
-TEST(Views, AreDrawn) {
-  State state = solved("throw");
-  const char* folder = std::getenv("SPACETIME_SCREENSHOTS");
-  for (const bool dark : {true, false}) {
-    Screen screen(1280, 800);
-    state.dark = dark;
-    for (int tab = 0; tab < 4; ++tab) {
-      screen.memory().tab_left = std::min(tab, 2);
-      screen.memory().tab_right = tab;
-      for (int k = 0; k < 4; ++k) screen.frame(state);
-      if (folder)
-        write_png(std::string(folder) + "/throw-" + (dark ? "dark" : "light") + std::to_string(tab) + ".png",
-                  screen.image());
-    }
+struct Format {
+  int width, height;
+  float scale;
+};
+
+// Whether all controls are on the screen, as far as they are not in a list that scrolls.
+void expect_inside(Screen& screen, int width, int height) {
+  for (const auto& [name, r] : screen.memory().places) {
+    if (name.starts_with("part ") || name.starts_with("place ") || name.starts_with("control ")) continue;
+    EXPECT_GE(r.x, -1) << name;
+    EXPECT_GE(r.y, -1) << name;
+    EXPECT_LE(r.x + r.width, static_cast<float>(width) + 1) << name;
+    const bool scrolls = name.starts_with("expression") || name.starts_with("entry") || name.starts_with("example");
+    EXPECT_TRUE(scrolls || r.y + r.height <= static_cast<float>(height) + 1) << name;
   }
 }
+
+class Views : public testing::TestWithParam<std::tuple<Format, bool>> {};
+
+TEST_P(Views, AreDrawnInside) {
+  const auto& [format, dark] = GetParam();
+  static const State throw_state = solved("throw");
+  State state = throw_state;
+  state.dark = dark;
+  state.left = {{"journal", "lost.scene"}};
+  Screen screen(format.width, format.height, format.scale);
+  const std::string name = fmt::format("{}x{}-{}", format.width, format.height, dark ? "dark" : "light");
+  const auto take = [&](const std::string& what) {
+    for (int k = 0; k < 3; ++k) screen.frame(state);
+    expect_inside(screen, format.width, format.height);
+    if (const char* folder = std::getenv("SPACETIME_SCREENSHOTS"))
+      write_png(fmt::format("{}/view-{}-{}.png", folder, name, what), screen.image());
+  };
+  const char* tabs[] = {"equations", "constants", "freedom", "console"};
+  for (int tab = 0; tab < 4; ++tab) {
+    screen.memory().tab_left = std::min(tab, 2);
+    screen.memory().tab_right = tab;
+    screen.memory().scene.forces = tab == 1;
+    screen.memory().curves.show = tab == 3 ? CurvesMemory::Show::residuals : CurvesMemory::Show::curves;
+    take(tabs[tab]);
+  }
+  state.drafts["new constraint"] = "high: ball.Y >= 0.2 over [release, land]";
+  state.notices.push_back(
+      {Notice::Place::equations, Severity::error, "there is no 'ball.Z'; did you mean 'ball.X'?", "new constraint", 0});
+  screen.memory().tab_left = 0;
+  take("draft");
+  screen.memory().welcome = true;
+  take("welcome");
+  screen.memory().welcome = false;
+  take("between");
+  screen.memory().shortcuts = true;
+  take("shortcuts");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Views,
+                         testing::Combine(testing::Values(Format{1280, 800, 1}, Format{2560, 1440, 1.5F}),
+                                          testing::Bool()));
 
 }  // namespace
 }  // namespace spacetime::gui

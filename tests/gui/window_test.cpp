@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/files.h"
@@ -102,6 +103,79 @@ TEST(Window, AThrowIsMadeChangedUndoneSavedAndTheSameInABatch) {
     d.settle();
   }
   EXPECT_EQ(present_curves(d.state()), last);
+}
+
+// A daemon that never reads or answers holds nothing up: frames are drawn and every input does what it can.
+TEST(Window, DrawsAndObeysWhileDaemonsAreSilent) {
+  const protocol::Target silent{{"sleep", "600"}, {}, {}};
+  for (const bool symbolic_too : {true, false}) {
+    gui::HubOptions options = daemons();
+    options.optimizer = silent;
+    if (symbolic_too) options.symbolic = silent;
+    Driver d(options, 960, 600);
+    d.hub().post(gui::Open{SPACETIME_SOURCE_DIR "/examples/throw.scene"});
+    const char* tabs[] = {"tab Constants", "tab Freedom", "tab Equations", "tab Scene", "tab Log", "tab Console"};
+    int frames = 0, handled = 0;
+    for (; frames < 300; ++handled) {
+      d.click(tabs[handled % 6]);  // five frames
+      d.key(GLFW_KEY_F5);
+      d.key(GLFW_KEY_G);
+      frames += 11;
+    }
+    EXPECT_EQ(d.screen().memory().scene.ghosts, handled % 2 == 0);  // every G was taken
+    EXPECT_LT(d.state().waiting, 100);
+    if (symbolic_too) continue;
+    EXPECT_TRUE(d.state().scene && d.state().scene->problem);
+    d.key(GLFW_KEY_O, true);
+    EXPECT_TRUE(d.has("confirm file"));  // a dialog opens
+  }
+}
+
+// Where a mistake is told: beside what it is in.
+TEST(Window, MistakesAreToldWhereThePersonLooks) {
+  const std::string here = folder("mistakes");
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::Open{SPACETIME_SOURCE_DIR "/examples/throw.scene"});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.settle();
+  d.click("add new constraint");
+  d.write_into("draft new constraint", "high: ball.Z >= 0 at 1");
+  d.until([](const gui::State& s) { return !s.notices.empty(); }, "a mistake");
+  EXPECT_EQ(d.state().notices.front().place, gui::Notice::Place::equations);
+  EXPECT_EQ(d.state().notices.front().about, "new constraint");
+  EXPECT_NE(d.state().notices.front().text.find("Z"), std::string::npos) << d.state().notices.front().text;
+  d.frame(2);
+  d.save_picture("mistake-constraint.png");
+
+  // An infeasible throw says what fights what.
+  d.hub().post(gui::Draft{"new constraint", std::nullopt});
+  act(d.hub(), "constrain wall: ball.X <= 2 at land");
+  d.click("run");
+  d.settle();
+  EXPECT_EQ(d.state().motion->status, Status::infeasible);
+  EXPECT_NE(d.state().motion->message.find("wall"), std::string::npos) << d.state().motion->message;
+  d.save_picture("mistake-infeasible.png");
+
+  // A file that cannot be written.
+  d.hub().post(gui::Save{"/proc/nothing/here.scene"});
+  d.until(
+      [](const gui::State& s) {
+        return std::ranges::any_of(s.notices,
+                                   [](const gui::Notice& n) { return n.text.find("here.scene") != std::string::npos; });
+      },
+      "a refusal to save");
+  d.frame(2);
+  d.save_picture("mistake-file.png");
+
+  // A scene with a mistake is shown, and the mistake in it.
+  write_text(here + "/wrong.scene",
+             "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain a: x = yy at 0\nsolve\n");
+  d.hub().post(gui::Open{here + "/wrong.scene"});
+  d.until([](const gui::State& s) { return s.scene && !s.scene->problem; }, "a scene with a mistake");
+  d.click("tab Scene");
+  d.frame(3);
+  EXPECT_TRUE(d.has("mistake 4"));
+  d.save_picture("mistake-scene.png");
 }
 
 }  // namespace
