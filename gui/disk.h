@@ -45,6 +45,8 @@ class Disk {
   void act(const KeepSettings& effect);
   void act(const Request&) {}
   void act(const Cancel&) {}
+  void act(const MakeFilm&) {}
+  void act(const StopFilm&) {}
 
   const std::string folder_;
   const std::function<void(Event)> post_;

@@ -52,13 +52,21 @@ struct JournalEnd {
 struct JournalDrop {  // of a session that ended
   std::string journal;
 };
+struct MakeFilm {  // frames/%04d.png, a .mp4, or one .png with so many poses
+  std::string file;
+  std::shared_ptr<const std::string> motion;  // a document
+  double rate = 30;                           // frames a second
+  int strip = 0;
+  bool dark = false;
+};
+struct StopFilm {};
 struct KeepSettings {
   bool dark = true;
   std::vector<std::string> recent;
 };
 
 using Effect = std::variant<Request, Cancel, ReadFile, WriteFile, WatchFile, JournalBegin, JournalLine, JournalEnd,
-                            JournalDrop, KeepSettings>;
+                            JournalDrop, KeepSettings, MakeFilm, StopFilm>;
 using Effects = std::vector<Effect>;
 
 }  // namespace spacetime::gui

@@ -50,6 +50,12 @@ struct Ask {  // the console: an expression to print, differentiate `by`, evalua
   std::string text, by{};
 };
 
+struct Film {  // of the present motion, into pictures, a film or (where `strip` is above 0) one picture of many poses
+  std::string file;
+  int strip = 0;
+};
+struct DropFilm {};  // stops making it
+
 // --- How it is looked at.
 
 struct Play {
@@ -134,6 +140,11 @@ struct Refused {  // an error
   int number = 0;
   std::string message;
 };
+struct Filmed {
+  enum class What { progress, done, failed };
+  std::string file, text;
+  What what = What::progress;
+};
 struct FileRead {
   std::string file, text;
 };
@@ -167,6 +178,6 @@ using Event =
     std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost,
                  Ask, Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick,
                  DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused, FileRead,
-                 FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored>;
+                 FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
 
 }  // namespace spacetime::gui

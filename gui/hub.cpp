@@ -74,6 +74,7 @@ protocol::Target daemon_beside(const std::string& name) {
 
 Hub::Hub(HubOptions options) : wake_(std::move(options.wake)) {
   const auto queue = [this](Event event) { push(std::move(event)); };
+  filming_ = std::make_unique<Filming>(queue);
   disk_ = std::make_unique<Disk>(std::move(options.folder), queue);
   symbolic_ = std::make_unique<Client>(std::move(options.symbolic), callbacks(true, queue));
   optimizer_ = std::make_unique<Client>(std::move(options.optimizer), callbacks(false, queue));
@@ -116,6 +117,10 @@ void Hub::apply(const Event& event) {
       perform(*request);
     } else if (const auto* cancel = std::get_if<Cancel>(&effect)) {
       perform(*cancel);
+    } else if (const auto* film = std::get_if<MakeFilm>(&effect)) {
+      filming_->perform(*film);
+    } else if (std::holds_alternative<StopFilm>(effect)) {
+      filming_->stop();
     } else {
       disk_->perform(std::move(effect));
     }

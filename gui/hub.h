@@ -11,6 +11,7 @@
 #include "gui/disk.h"
 #include "gui/effect.h"
 #include "gui/event.h"
+#include "gui/filming.h"
 #include "gui/state.h"
 #include "protocol/client.h"
 
@@ -57,6 +58,7 @@ class Hub {
   std::vector<Event> queue_;
 
   // Last, so that they end first: their threads fill the queue.
+  std::unique_ptr<Filming> filming_;
   std::unique_ptr<Disk> disk_;
   std::unique_ptr<protocol::Client> symbolic_, optimizer_;
 };

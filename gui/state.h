@@ -137,9 +137,10 @@ struct State {
   Daemon symbolic, optimizer;
   std::vector<Notice> notices;
   std::vector<ConsoleLine> console;
-  std::vector<std::string> recent;  // files, newest first
-  std::vector<LeftBehind> left;     // sessions that ended without being saved
-  double clock = 0;                 // s since the start; moved by events alone
+  std::vector<std::string> recent;                          // files, newest first
+  std::vector<LeftBehind> left;                             // sessions that ended without being saved
+  std::optional<std::pair<std::string, std::string>> film;  // that is being made: its file, and how far it is
+  double clock = 0;                                         // s since the start; moved by events alone
 
   // How it is looked at.
   Playback playback;

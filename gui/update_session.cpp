@@ -116,6 +116,29 @@ void apply(State&, const Open& event, Effects& effects) { effects.push_back(Read
 
 void apply(State& state, const OpenText& event, Effects& effects) { open_text(state, "", event.text, effects); }
 
+void apply(State& state, const Film& event, Effects& effects) {
+  if (state.present < 0 || !state.log[state.present].checkpoint)
+    return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet.", "", 0});
+  state.film = {event.file, ""};
+  effects.push_back(
+      MakeFilm{event.file, state.log[state.present].checkpoint, state.playback.rate, event.strip, state.dark});
+}
+
+void apply(State& state, const DropFilm&, Effects& effects) {
+  state.film.reset();
+  effects.push_back(StopFilm{});
+}
+
+void apply(State& state, const Filmed& event, Effects&) {
+  if (!state.film || state.film->first != event.file) return;
+  state.film->second = event.text;
+  if (event.what == Filmed::What::progress) return;
+  state.film.reset();
+  const bool done = event.what == Filmed::What::done;
+  notify(state, {Place::status, done ? Severity::note : Severity::error,
+                 done ? event.file + " is made." : event.file + " could not be made: " + event.text, "", 0});
+}
+
 void apply(State& state, const FileRead& event, Effects& effects) {
   open_text(state, event.file, event.text, effects);
   remember(state, event.file, effects);

@@ -184,8 +184,50 @@ void list_folder(Ui& ui) {
   ImGui::EndChild();
 }
 
+// What a film's name says will be made.
+const char* film_kind(const std::string& name) {
+  if (name.ends_with(".mp4")) return "A film, made by ffmpeg.";
+  if (name.ends_with(".png") && name.find('%') != std::string::npos) return "A picture for every frame.";
+  if (name.ends_with(".png")) return "One picture with twelve poses, like the strips in the papers.";
+  return nullptr;
+}
+
+void draw_film(Ui& ui) {
+  FilesMemory& m = ui.memory.files;
+  if (!ImGui::IsPopupOpen("Make a film")) {
+    ImGui::OpenPopup("Make a film");
+    m.folder = ui.state.file.empty() ? fs::current_path() : fs::absolute(ui.state.file).parent_path();
+    m.name = ui.state.file.empty() ? "film.mp4" : fs::path(ui.state.file).stem().string() + ".mp4";
+  }
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({ui.scaled(520), 0});
+  if (!ImGui::BeginPopupModal("Make a film", nullptr, ImGuiWindowFlags_NoResize)) return;
+  ImGui::TextDisabled("%s", m.folder.c_str());
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputText("##film", &m.name);
+  ui.here("film name");
+  const char* kind = film_kind(m.name);
+  ImGui::TextWrapped("%s", kind ? kind : "Name it film.mp4, strip.png, or frames/%04d.png.");
+  if (!kind) ImGui::BeginDisabled();
+  const bool pressed = ImGui::Button("Make", {ui.scaled(100), 0});
+  ui.here("make film");
+  if (!kind) ImGui::EndDisabled();
+  ImGui::SameLine();
+  if (pressed && kind) {
+    const bool strip = m.name.ends_with(".png") && m.name.find('%') == std::string::npos;
+    ui.emit(Film{fs::path(m.folder) / m.name, strip ? 12 : 0});
+  }
+  if (ImGui::Button("Cancel", {ui.scaled(100), 0}) || pressed ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+    m.dialog = FilesMemory::Dialog::none;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
 void draw_files(Ui& ui) {
   FilesMemory& m = ui.memory.files;
+  if (m.dialog == FilesMemory::Dialog::film) return draw_film(ui);
   const bool open = m.dialog == FilesMemory::Dialog::open;
   if (m.dialog == FilesMemory::Dialog::none) return;
   const char* title = open ? "Open a scene" : "Save the scene";

@@ -14,7 +14,8 @@
 namespace spacetime::gui {
 namespace {
 
-constexpr float gap = 6;  // between panels, pixels at scale 1; also what is dragged to resize them
+constexpr int text_tab = 1;  // of the tools
+constexpr float gap = 6;     // between panels, pixels at scale 1; also what is dragged to resize them
 
 // Between two panels; `size` is that of the panel it resizes, which grows by `sign` times the mouse's movement.
 void draw_splitter(Ui& ui, const char* name, const Rect& r, float& size, float sign, float least, float most) {
@@ -64,15 +65,19 @@ void draw_window(Ui& ui, SceneView& scene) {
   Memory& m = ui.memory;
   m.places.clear();
   take_keys(ui);
+  // A scene with mistakes shows them.
+  if (ui.state.scene && !ui.state.scene->problem && m.mistaken != ui.state.scene) m.tab_right = text_tab;
+  m.mistaken = ui.state.scene && !ui.state.scene->problem ? ui.state.scene : nullptr;
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport.Pos);
   ImGui::SetNextWindowSize(viewport.Size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::Begin("Spacetime", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
   draw_menu(ui);
 
   // Panels keep their sizes and the scene view takes what is left, but never less than a third.

@@ -47,6 +47,10 @@ void draw_file_menu(Ui& ui) {
   ui.here("menu save");
   if (ImGui::MenuItem("Save as...", nullptr, false, there)) ui.memory.files.dialog = FilesMemory::Dialog::save;
   ImGui::Separator();
+  if (ImGui::MenuItem("Make a film or pictures...", nullptr, false, ui.state.curves != nullptr && !ui.state.film))
+    ui.memory.files.dialog = FilesMemory::Dialog::film;
+  ui.here("menu film");
+  ImGui::Separator();
   if (ImGui::MenuItem("Quit", "Ctrl+Q")) leave_for(ui, "");
   ImGui::EndMenu();
 }
@@ -183,10 +187,18 @@ void draw_status(Ui& ui) {
   };
   daemon("symbolic", s.symbolic);
   daemon("optimizer", s.optimizer);
+  if (s.film) {
+    ImGui::TextUnformatted(
+        fmt::format("Making {}: {}", fs::path(s.film->first).filename().string(), s.film->second).c_str());
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Stop##film")) ui.emit(DropFilm{});
+    ui.here("stop film");
+    return;
+  }
   bool told = false;
   for (std::size_t i = s.notices.size(); i-- > 0 && !told;) {
     const Notice& notice = s.notices[i];
-    if (notice.place != Notice::Place::status || !notice.about.empty()) continue;
+    if (notice.place != Notice::Place::status) continue;
     told = true;
     const ImVec4& colour = notice.severity == Severity::error     ? ui.colours().bad
                            : notice.severity == Severity::warning ? ui.colours().warning

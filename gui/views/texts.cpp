@@ -76,6 +76,8 @@ void draw_text(Ui& ui) {
     ImGui::TextDisabled("No scene is open.");
     return;
   }
+  if (!s.scene->problem && !s.scene->diagnostics.empty())
+    ImGui::TextWrapped("Correct it in an editor: the file is read again when it is saved.");
   const std::string text = text_of(s);
   ImGui::PushFont(ui.memory.fonts.code);
   ImGui::BeginChild("text", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);

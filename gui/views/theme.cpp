@@ -81,7 +81,7 @@ void apply(const Colours& p, float scale) {
   style.ItemInnerSpacing = {6, 4};
   style.ScrollbarSize = 11;
   style.GrabMinSize = 10;
-  style.WindowBorderSize = 0;
+  style.WindowBorderSize = 1;
   style.ChildBorderSize = 0;
   style.PopupBorderSize = 1;
   style.FrameRounding = style.GrabRounding = style.TabRounding = style.ScrollbarRounding = 4;

@@ -61,6 +61,8 @@ void Ui::notices(Notice::Place place, const std::string& about) {
   for (std::size_t i = 0; i < state.notices.size(); ++i) {
     const Notice& notice = state.notices[i];
     if (notice.place != place || notice.about != about) continue;
+    // How the last run ended stands in the panel already.
+    if (place == Notice::Place::optimisation && state.motion && notice.text == state.motion->message) continue;
     const ImVec4& colour = notice.severity == Severity::error     ? colours().bad
                            : notice.severity == Severity::warning ? colours().warning
                                                                   : colours().faint;

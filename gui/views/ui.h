@@ -34,8 +34,8 @@ struct CurvesMemory {
 };
 
 struct SceneMemory {
-  Camera camera{.pitch = 0.12F};  // a little from above, so that the ground is seen
-  float ground = 0;               // m, under the lowest that the figure comes
+  Camera camera{.pitch = 0.12F};            // a little from above, so that the ground is seen
+  float ground = 0;                         // m, under the lowest that the figure comes
   bool framed = false;                      // the camera has been put in front of the scene
   std::shared_ptr<const Scene> framed_for;  // as it was opened
   bool trails = true, ghosts = true, forces = false, marks = true;
@@ -62,6 +62,7 @@ struct Memory {
   Question question;
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
+  std::shared_ptr<const Scene> mistaken;  // whose text has been brought forward
   std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
   SceneMemory scene;
   CurvesMemory curves;

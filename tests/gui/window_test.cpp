@@ -178,5 +178,25 @@ TEST(Window, MistakesAreToldWhereThePersonLooks) {
   d.save_picture("mistake-scene.png");
 }
 
+// A film is made by a process of its own while the window goes on.
+TEST(Window, MakesAStripOfTheMotion) {
+  const std::string here = folder("film");
+  Driver d(daemons(), 1280, 800);
+  fs::copy_file(SPACETIME_SOURCE_DIR "/examples/throw.scene", here + "/throw.scene");
+  d.hub().post(gui::Open{here + "/throw.scene"});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.click("run");
+  d.settle();
+  d.screen().memory().files.dialog = gui::FilesMemory::Dialog::film;
+  d.frame(3);
+  d.save_picture("film-dialog.png");
+  d.hub().post(gui::Film{here + "/strip.png", 12});
+  d.until([](const gui::State& s) { return !s.film && !s.notices.empty(); }, "the strip");
+  EXPECT_TRUE(fs::exists(here + "/strip.png")) << told(d.state());
+  d.hub().post(gui::Film{"/proc/nothing/film.mp4", 0});
+  d.until([](const gui::State& s) { return !s.film && told(s).find("could not be made") != std::string::npos; },
+          "a refusal");
+}
+
 }  // namespace
 }  // namespace spacetime::test
