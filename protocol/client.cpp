@@ -75,12 +75,18 @@ std::pair<int, pid_t> spawn(const std::vector<std::string>& program) {
 class Client::Link {
  public:
   Link(Target target, Callbacks callbacks)
-      : target_(std::move(target)), callbacks_(std::move(callbacks)), pause_(context_), thread_([this] { run(); }) {}
+      : target_(std::move(target)),
+        callbacks_(std::move(callbacks)),
+        pause_(context_),
+        greeting_(context_),
+        thread_([this] { run(); }) {}
 
   ~Link() {
     asio::post(context_, [this] {
       ending_ = true;
       pause_.cancel();
+      greeting_.cancel();
+      attempt_.reset();
       if (stream_) stream_->close();
       work_.reset();
     });
@@ -131,19 +137,32 @@ class Client::Link {
     outgoing_.clear();
     writing_ = false;
     ++generation_;
+    resent_ = -1;
     try {
       if (target_.address) {
-        stream_ = protocol::connect(context_, *target_.address, target_.credentials);
+        attempt_ = protocol::connect(context_, *target_.address, target_.credentials,
+                                     [this](std::unique_ptr<Stream> stream, const std::string& why) {
+                                       attempt_.reset();
+                                       stream ? begin(std::move(stream)) : retry(why);
+                                     });
       } else {
         const auto [socket, child] = spawn(target_.program);
         process_ = child;
-        stream_ = socket_stream(context_, socket);
+        begin(socket_stream(context_, socket));
       }
     } catch (const InputError& error) {
       return retry(error.what());
     }
+    greeting_.expires_after(target_.patience);
+    greeting_.async_wait([this, generation = generation_](boost::system::error_code stopped) {
+      if (stopped || generation != generation_ || resent_ >= 0 || !(attempt_ || stream_)) return;
+      retry("the daemon has not answered within " + std::to_string(target_.patience.count()) + " ms");
+    });
+  }
+
+  void begin(std::unique_ptr<Stream> stream) {
+    stream_ = std::move(stream);
     read();
-    resent_ = -1;
     resend();
   }
 
@@ -168,7 +187,7 @@ class Client::Link {
   }
 
   void retry(std::string why) {
-    stream_.reset();
+    hang_up();
     if (const int status = bury(); WIFEXITED(status) && WEXITSTATUS(status) == cannot_start) {
       why = "'" + target_.program.front() + "' cannot be started";
       failures_ = most_failures;  // and never will
@@ -179,17 +198,27 @@ class Client::Link {
       if (asked.tries >= most_tries) hopeless.push_back(id);
     }
     for (const int id : hopeless) fail(id, "the daemon has ended each time it was asked this");
-    if (++failures_ > most_failures) {
-      enter(State::lost, why);
-      while (!asked_.empty()) fail(asked_.begin()->first, "the daemon is lost: " + why);
-      return;
-    }
+    if (++failures_ > most_failures) return lose(why);
     enter(State::connecting, why);
     pause_.expires_after(pause_length_);
     pause_length_ = std::min(longest_pause, 2 * pause_length_);
     pause_.async_wait([this](boost::system::error_code stopped) {
       if (!stopped) connect();
     });
+  }
+
+  void hang_up() {
+    greeting_.cancel();
+    attempt_.reset();
+    stream_.reset();
+  }
+
+  // For good.
+  void lose(const std::string& why) {
+    hang_up();
+    bury();
+    enter(State::lost, why);
+    while (!asked_.empty()) fail(asked_.begin()->first, "the daemon is lost: " + why);
   }
 
   // Ends and reaps the daemon's process, if there is one; how it ended.
@@ -222,7 +251,10 @@ class Client::Link {
       if (generation != generation_ || !stream_) return;
       if (error) return retry("the daemon has ended the connection: " + error.message());
       reader_.add({block_.data(), bytes});
-      while (auto frame = reader_.next()) take(frame->text);
+      while (auto frame = reader_.next()) {
+        take(frame->text);
+        if (!stream_) return;
+      }
       read();
     });
   }
@@ -251,6 +283,8 @@ class Client::Link {
     if (!message.contains("id") || !message["id"].is_number_integer()) return;
     const int id = message["id"].get<int>();
     if (id == 0) {
+      if (resent_ < 0 && message.contains("error")) return take_refusal(message["error"]);
+      greeting_.cancel();
       failures_ = 0;
       ++resent_;
       return resend();
@@ -269,6 +303,14 @@ class Client::Link {
     if (asked.answered) asked.answered(reply);
   }
 
+  // A daemon that serves others may have room later; one that speaks another language never will.
+  void take_refusal(const Json& error) {
+    const bool told = error.is_object() && error.contains("message") && error["message"].is_string();
+    const std::string why = told ? error["message"].get<std::string>() : "the daemon has refused the greeting";
+    const bool full = error.is_object() && error.value("code", Json()) == static_cast<int>(Code::too_many_sessions);
+    full ? retry(why) : lose(why);
+  }
+
   void take_progress(const Json& message) {
     if (message["method"] != "$/progress" || !message["params"]["token"].is_number_integer()) return;
     const auto found = asked_.find(message["params"]["token"].get<int>());
@@ -281,7 +323,9 @@ class Client::Link {
   std::atomic<int> process_ = 0;
   asio::io_context context_{1};
   asio::executor_work_guard<asio::io_context::executor_type> work_ = asio::make_work_guard(context_);
-  asio::steady_timer pause_;
+  asio::steady_timer pause_;     // before the next attempt
+  asio::steady_timer greeting_;  // ... which ends when this has passed without an answer
+  std::shared_ptr<void> attempt_;
   std::unique_ptr<Stream> stream_;
   std::array<char, 1 << 16> block_{};
   FrameReader reader_{longest_answer};

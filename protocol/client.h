@@ -2,6 +2,7 @@
 // again, or connected to again, and brought back to where it was by sending anew what led there.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,11 +15,16 @@
 
 namespace spacetime::protocol {
 
+// A daemon that has not answered the greeting after so long is given up, and tried again: it may be a host that takes
+// connections and serves nobody.  Daemons answer within milliseconds; a loaded machine far away may take seconds.
+inline constexpr std::chrono::milliseconds greeting_patience{10'000};
+
 // Where the daemon is: a program with its arguments, started over its standard input and output, or an address.
 struct Target {
   std::vector<std::string> program;
   std::optional<Address> address;
   Credentials credentials;
+  std::chrono::milliseconds patience = greeting_patience;
 };
 
 // The answer to a request: one of the two is null.

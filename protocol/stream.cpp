@@ -1,6 +1,5 @@
 #include "protocol/stream.h"
 
-#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,8 +13,6 @@
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
-#include <cerrno>
-#include <thread>
 
 #include "common/diagnostic.h"
 
@@ -103,64 +100,6 @@ class TlsStream final : public Stream {
  private:
   std::shared_ptr<asio::ssl::context> context_;
   std::unique_ptr<TlsSocket> socket_;
-};
-
-bool send_all(int to, const char* bytes, std::size_t size, bool socket) {
-  while (size > 0) {
-    const auto sent = socket ? ::send(to, bytes, size, MSG_NOSIGNAL) : ::write(to, bytes, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    bytes += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-// Copies until the source ends or the sink does not take more.
-void copy_all(int from, int to, bool to_socket) {
-  std::array<char, 1 << 16> block;
-  for (;;) {
-    const auto got = ::read(from, block.data(), block.size());
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0 || !send_all(to, block.data(), static_cast<std::size_t>(got), to_socket)) return;
-  }
-}
-
-class StandardStream final : public Stream {
- public:
-  explicit StandardStream(asio::io_context& context) {
-    std::array<int, 2> pair{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
-    const int inner = pair[1];
-    socket_ = std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, pair[0]));
-    // The first ends with standard input, which may be never: nobody waits for it, and it uses nothing of this object.
-    std::thread([inner = ::fcntl(inner, F_DUPFD_CLOEXEC, 0)] {
-      copy_all(STDIN_FILENO, inner, true);
-      ::shutdown(inner, SHUT_WR);
-      ::close(inner);
-    }).detach();
-    output_ = std::thread([inner] {
-      copy_all(inner, STDOUT_FILENO, false);
-      ::shutdown(inner, SHUT_RDWR);  // standard output takes no more: whoever writes is to know
-      ::close(inner);
-    });
-  }
-  ~StandardStream() override {
-    socket_->close();
-    cut_ ? output_.detach() : output_.join();  // whoever does not read standard output would hold us up for ever
-  }
-  void read_some(std::span<char> into, Done done) override { socket_->read_some(into, std::move(done)); }
-  void write_all(std::string_view bytes, Done done) override { socket_->write_all(bytes, std::move(done)); }
-  void close() override {
-    cut_ = true;
-    socket_->close();
-  }
-  void part() override { socket_->close(); }
-
- private:
-  std::unique_ptr<SocketStream> socket_;
-  bool cut_ = false;
-  std::thread output_;
 };
 
 std::shared_ptr<asio::ssl::context> tls_context(const Credentials& credentials, bool server) {
@@ -330,9 +269,75 @@ class SocketListener final : public Listener {
   std::function<void(std::string)> refused_;
 };
 
-}  // namespace
+// One attempt to connect: each step begins the next.
+class Attempt : public std::enable_shared_from_this<Attempt> {
+  // What comes next where a step has succeeded.  Keeps this alive until then.
+  template <class Next>
+  auto then(Next next) {
+    return [this, self = shared_from_this(), next](boost::system::error_code error, const auto&...) {
+      if (error) return fail(error);
+      if (done_) next();
+    };
+  }
 
-std::unique_ptr<Stream> standard_stream(asio::io_context& context) { return std::make_unique<StandardStream>(context); }
+ public:
+  Attempt(asio::io_context& context, const Address& address, const Credentials& credentials, Connected done)
+      : address_(address), done_(std::move(done)), resolver_(context), plain_(context), tcp_(context) {
+    if (address.kind == Address::Kind::tls) tls_ = tls_context(credentials, false);
+  }
+
+  void begin() {
+    if (address_.kind == Address::Kind::unix_socket) {
+      plain_.async_connect(asio::local::stream_protocol::endpoint(address_.path),
+                           then([this] { succeed(std::make_unique<SocketStream>(std::move(plain_))); }));
+    } else {
+      resolver_.async_resolve(address_.host, address_.port,
+                              [this, self = shared_from_this()](boost::system::error_code error, const auto& found) {
+                                if (error) return fail(error);
+                                if (done_) asio::async_connect(tcp_, found, then([this] { secure(); }));
+                              });
+    }
+  }
+
+  void give_up() {
+    done_ = {};
+    resolver_.cancel();
+    close_now(plain_);
+    boost::system::error_code ignored;
+    tcp_.close(ignored);
+    if (secured_) secured_->lowest_layer().close(ignored);
+  }
+
+ private:
+  void secure() {
+    boost::system::error_code ignored;
+    tcp_.set_option(asio::ip::tcp::no_delay(true), ignored);
+    if (!tls_) return succeed(std::make_unique<SocketStream>(Socket(std::move(tcp_))));
+    secured_ = std::make_unique<TlsSocket>(Socket(std::move(tcp_)), *tls_);
+    secured_->set_verify_callback(asio::ssl::host_name_verification(address_.host));
+    secured_->async_handshake(asio::ssl::stream_base::client,
+                              then([this] { succeed(std::make_unique<TlsStream>(tls_, std::move(secured_))); }));
+  }
+
+  void succeed(std::unique_ptr<Stream> stream) { std::exchange(done_, {})(std::move(stream), {}); }
+  void fail(const boost::system::error_code& error) {
+    if (const auto done = std::exchange(done_, {})) {
+      done(nullptr, "cannot connect to " +
+                        (address_.path.empty() ? address_.host + ":" + address_.port : address_.path) + ": " +
+                        error.message());
+    }
+  }
+
+  const Address address_;
+  Connected done_;
+  asio::ip::tcp::resolver resolver_;
+  Socket plain_;  // of the UNIX family
+  asio::ip::tcp::socket tcp_;
+  std::shared_ptr<asio::ssl::context> tls_;
+  std::unique_ptr<TlsSocket> secured_;
+};
+
+}  // namespace
 
 std::unique_ptr<Stream> socket_stream(asio::io_context& context, int descriptor) {
   return std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, descriptor));
@@ -342,32 +347,11 @@ std::unique_ptr<Listener> listen(asio::io_context& context, const Address& addre
   return std::make_unique<SocketListener>(context, address, credentials);
 }
 
-std::unique_ptr<Stream> connect(asio::io_context& context, const Address& address, const Credentials& credentials) {
-  const auto failed = [&](const boost::system::error_code& error) {
-    throw InputError("cannot connect to " + (address.path.empty() ? address.host + ":" + address.port : address.path) +
-                     ": " + error.message());
-  };
-  boost::system::error_code error;
-  if (address.kind == Address::Kind::unix_socket) {
-    asio::local::stream_protocol::socket socket(context);
-    socket.connect(asio::local::stream_protocol::endpoint(address.path), error);
-    if (error) failed(error);
-    return std::make_unique<SocketStream>(std::move(socket));
-  }
-  asio::ip::tcp::resolver resolver(context);
-  const auto found = resolver.resolve(address.host, address.port, error);
-  if (error) failed(error);
-  asio::ip::tcp::socket socket(context);
-  asio::connect(socket, found, error);
-  if (error) failed(error);
-  socket.set_option(asio::ip::tcp::no_delay(true), error);
-  if (address.kind == Address::Kind::tcp) return std::make_unique<SocketStream>(std::move(socket));
-  const auto tls = tls_context(credentials, false);
-  auto secured = std::make_unique<TlsSocket>(Socket(std::move(socket)), *tls);
-  secured->set_verify_callback(asio::ssl::host_name_verification(address.host));
-  secured->handshake(asio::ssl::stream_base::client, error);
-  if (error) failed(error);
-  return std::make_unique<TlsStream>(tls, std::move(secured));
+std::shared_ptr<void> connect(asio::io_context& context, const Address& address, const Credentials& credentials,
+                              Connected done) {
+  const auto attempt = std::make_shared<Attempt>(context, address, credentials, std::move(done));
+  attempt->begin();
+  return {attempt.get(), [attempt](void*) { attempt->give_up(); }};
 }
 
 }  // namespace spacetime::protocol

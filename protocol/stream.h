@@ -48,9 +48,13 @@ class Listener {
 std::unique_ptr<Listener> listen(boost::asio::io_context& context, const Address& address,
                                  const Credentials& credentials);
 
-// Connects, blocking for as long as the system tries, and a TLS handshake as long as the other side takes.  Throws
-// InputError.
-std::unique_ptr<Stream> connect(boost::asio::io_context& context, const Address& address,
-                                const Credentials& credentials);
+// A stream that is ready for messages; or null, and why there is none.
+using Connected = std::function<void(std::unique_ptr<Stream> stream, const std::string& why)>;
+
+// Begins to connect, and with TLS to verify each other; `done` is called in the io_context's thread, however long that
+// takes.  Whoever lets go of what this returns ends the attempt, and is not called.  Throws InputError: certificates
+// that cannot be read.
+std::shared_ptr<void> connect(boost::asio::io_context& context, const Address& address, const Credentials& credentials,
+                              Connected done);
 
 }  // namespace spacetime::protocol

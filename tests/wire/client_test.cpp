@@ -3,11 +3,21 @@
 
 #include <gtest/gtest.h>
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <future>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -97,6 +107,168 @@ TEST(Client, GivesUpOnAProgramThatIsNotThere) {
   Client client({{"/nowhere/spacetime-optimizer"}, {}, {}}, {});
   const Reply reply = answer(client, "motion/get", Json::object());
   EXPECT_EQ(reply.error["code"], static_cast<int>(Code::internal));
+}
+
+// Every state that a client has been in, with its sentences.
+struct Course {
+  struct Seen {
+    Client::State state;
+    std::string why;
+  };
+  std::mutex mutex;
+  std::condition_variable more;
+  std::vector<Seen> seen;
+
+  Client::Callbacks callbacks() {
+    return {[this](Client::State state, const std::string& why) {
+      const std::lock_guard lock(mutex);
+      seen.push_back({state, why});
+      more.notify_all();
+    }};
+  }
+  // Waits for a state with a sentence that has these words; false where another with a sentence came first.
+  bool next_is(Client::State state, const std::string& words) {
+    std::unique_lock lock(mutex);
+    const auto told = [](const Seen& one) { return !one.why.empty(); };
+    const bool came = more.wait_for(lock, patience, [&] { return std::ranges::any_of(seen, told); });
+    if (!came) return false;
+    const auto found = std::ranges::find_if(seen, told);
+    const bool right = found->state == state && found->why.find(words) != std::string::npos;
+    if (!right) ADD_FAILURE() << "state " << static_cast<int>(found->state) << ": " << found->why;
+    seen.erase(seen.begin(), found + 1);
+    return right;
+  }
+};
+
+// A port of the loopback on which connections are taken and nobody answers.
+class Mute {
+ public:
+  Mute() : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof place;
+    auto* const general = static_cast<sockaddr*>(static_cast<void*>(&place));
+    SPACETIME_ASSERT(::bind(socket_, general, size) == 0 && ::listen(socket_, 8) == 0);
+    SPACETIME_ASSERT(::getsockname(socket_, general, &size) == 0);
+    port_ = std::to_string(ntohs(place.sin_port));
+  }
+  ~Mute() { ::close(socket_); }
+  const std::string& port() const { return port_; }
+
+ private:
+  int socket_;
+  std::string port_;
+};
+
+// An authority with what it has signed, for a daemon by this name.
+std::string certificates_for(const std::string& name, const std::string& folder) {
+  const auto directory = std::filesystem::path(testing::TempDir()) / (folder + std::to_string(getpid()));
+  const std::string command = SPACETIME_SOURCE_DIR "/protocol/certificates.sh '" + directory.string() + "' " + name;
+  SPACETIME_ASSERT(std::system((command + " > /dev/null 2>&1").c_str()) == 0);
+  return directory.string();
+}
+
+// A daemon that listens with TLS on a port that it has chosen.
+class Listening {
+ public:
+  explicit Listening(const std::string& keys) : log_(keys + "/log") {
+    process_ = fork();
+    if (process_ == 0) {
+      SPACETIME_ASSERT(std::freopen(log_.c_str(), "w", stderr));
+      execl((bin + "/spacetime-symbolic").c_str(), "spacetime-symbolic", "serve", "--listen", "tls://127.0.0.1:0",
+            "--certificate", (keys + "/daemon.pem").c_str(), "--key", (keys + "/daemon-key.pem").c_str(), "--authority",
+            (keys + "/authority.pem").c_str(), nullptr);
+      _exit(127);
+    }
+    const auto end = std::chrono::steady_clock::now() + patience;
+    const std::string mark = "listening on tls://127.0.0.1:";
+    std::string line;
+    while (std::chrono::steady_clock::now() < end && port_.empty()) {
+      std::ifstream log(log_);
+      while (std::getline(log, line) && !log.eof()) {
+        if (const auto at = line.find(mark); at != line.npos) port_ = line.substr(at + mark.size());
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    SPACETIME_ASSERT(!port_.empty());
+  }
+  ~Listening() {
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  const std::string& port() const { return port_; }
+
+ private:
+  std::string log_, port_;
+  pid_t process_ = 0;
+};
+
+Target secured(const std::string& port, const std::string& keys, const std::string& authority) {
+  return {{},
+          Address{Address::Kind::tls, {}, "127.0.0.1", port},
+          {keys + "/client.pem", keys + "/client-key.pem", authority + "/authority.pem"}};
+}
+
+TEST(Client, GivesUpAHostThatTakesConnectionsAndNeverAnswers) {
+  const std::string keys = certificates_for("127.0.0.1", "mute");
+  const Mute mute;
+  Target plain{{}, Address{Address::Kind::tcp, {}, "127.0.0.1", mute.port()}, {}, std::chrono::milliseconds(50)};
+  Target tls = secured(mute.port(), keys, keys);
+  tls.patience = plain.patience;
+  const Target program{{"/bin/sleep", "1000"}, {}, {}, plain.patience};
+  for (const Target& target : {plain, tls, program}) {
+    Course course;
+    const Client client(target, course.callbacks());
+    for (int attempt = 0; attempt < 3; ++attempt) {  // it goes on trying
+      ASSERT_TRUE(course.next_is(Client::State::connecting, "has not answered within 50 ms"));
+    }
+  }
+}
+
+TEST(Client, CanEndWhileItConnects) {
+  const std::string keys = certificates_for("127.0.0.1", "ends");
+  const Mute mute;
+  for (int k = 0; k < 20; ++k) const Client client(secured(mute.port(), keys, keys), {});
+}
+
+TEST(Client, IsLostWhereItsGreetingIsRefused) {
+  // What a daemon of another protocol's version says, and one that is full.
+  const auto says = [](int code, const std::string& why) {
+    const std::string error = R"({"jsonrpc":"2.0","id":0,"error":{"code":)" + std::to_string(code) + R"(,"message":")";
+    return Target{{"/bin/sh", "-c", "read line; echo '" + error + why + "\"}}'; exec cat > /dev/null"}, {}, {}};
+  };
+  {
+    Course course;
+    Client client(says(static_cast<int>(Code::unknown_version), "this daemon speaks version 2"), course.callbacks());
+    EXPECT_TRUE(course.next_is(Client::State::lost, "this daemon speaks version 2"));
+    EXPECT_EQ(answer(client, "motion/get", Json::object()).error["code"], static_cast<int>(Code::internal));
+    EXPECT_EQ(client.process(), 0);
+  }
+  Course course;
+  const Client client(says(static_cast<int>(Code::too_many_sessions), "17 connections"), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::connecting, "17 connections"));
+  EXPECT_TRUE(course.next_is(Client::State::connecting, "17 connections"));
+}
+
+TEST(Client, TalksWithTheDaemonThatItsAuthorityKnowsAlone) {
+  const std::string keys = certificates_for("127.0.0.1", "keys"), others = certificates_for("127.0.0.1", "others");
+  const Listening daemon(keys);
+  {
+    Client client(secured(daemon.port(), keys, keys), {});
+    result(client, "expression/query", {{"scene", "time [0, 1]"}, {"text", "1"}});
+  }
+  Course course;
+  const Client deceived(secured(daemon.port(), keys, others), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::connecting, "certificate verify failed"));
+}
+
+TEST(Client, RefusesADaemonOfAnotherName) {
+  const std::string keys = certificates_for("elsewhere.example", "named");
+  const Listening daemon(keys);
+  Course course;
+  const Client client(secured(daemon.port(), keys, keys), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::connecting, "certificate verify failed"));
 }
 
 TEST(Client, EndsItsDaemon) {
