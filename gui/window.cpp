@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <memory>
+#include <vector>
 
 #include "common/diagnostic.h"
 #include "gui/views/dialogs.h"
@@ -18,6 +19,34 @@ namespace {
 // GLFW tells why only to a callback.
 std::string last_error;
 void take_error(int, const char* text) { last_error = text; }
+
+// Keys that went down since the last frame, with what was held beside them.  A key that also went up again in that time
+// would otherwise never have been down: ImGui is told of it for one frame.
+struct Pressed {
+  int key = 0, modifiers = 0;
+};
+std::vector<Pressed> pressed;
+void take_key(GLFWwindow*, int key, int, int action, int modifiers) {
+  if (action == GLFW_PRESS && key >= 0) pressed.push_back({key, modifiers});
+}
+
+void hold_pressed(ImGuiIO& io) {
+  for (const Pressed& p : pressed) {
+    io.KeysDown[p.key] = true;
+    io.KeyCtrl |= (p.modifiers & GLFW_MOD_CONTROL) != 0;
+    io.KeyShift |= (p.modifiers & GLFW_MOD_SHIFT) != 0;
+    io.KeyAlt |= (p.modifiers & GLFW_MOD_ALT) != 0;
+  }
+}
+
+void let_go_of_pressed(ImGuiIO& io, GLFWwindow* window) {
+  for (const Pressed& p : pressed) io.KeysDown[p.key] = glfwGetKey(window, p.key) == GLFW_PRESS;
+  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+  pressed.clear();
+}
 
 // Everything that lives as long as the window, and ends in the right order.
 class Shell {
@@ -41,6 +70,7 @@ class Shell {
     glfwSwapInterval(1);
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
+    glfwSetKeyCallback(window, take_key);  // ImGui's own, set next, calls it first
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 330");
   }
@@ -93,9 +123,11 @@ int run_window(Hub& hub, float scale, bool welcome) {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    hold_pressed(ImGui::GetIO());
     ImGui::NewFrame();
     draw_window(ui, *scene);
     ImGui::Render();
+    let_go_of_pressed(ImGui::GetIO(), shell.window);
     int width = 0, height = 0;
     glfwGetFramebufferSize(shell.window, &width, &height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -80,6 +80,8 @@ void frame_all(Ui& ui, const Figures& figures, const Motion& motion, const glm::
   ui.memory.scene.ground = ground_height(figures.bounds(motion));
   ui.memory.scene.camera = frame(ui.memory.scene.camera, box, size, 0.1F);
   ui.memory.scene.framed = true;
+  ui.memory.scene.as_framed = ui.memory.scene.camera;
+  ui.memory.scene.framed_at = ui.state.revision;
 }
 
 // Handles of places, drawn over the picture; which one the mouse is at.
@@ -273,6 +275,8 @@ void SceneView::draw(Ui& ui) {
     m.framed = false;
     if (!planar(r.figures->bounds(motion_of(s, false)))) m.camera = looking(View::free, m.camera);
   }
+  const bool at_rest = !s.running && !s.steering && m.framed_at != s.revision;
+  if (at_rest && m.camera == m.as_framed) m.framed = false;
   if (!m.framed) frame_all(ui, *r.figures, motion_of(s, false), size);
   Picture picture = picture_of(s, ui.question(), ui.residuals(), *r.figures, {m.trails, m.ghosts, m.forces, m.marks});
   picture.ground_height = m.ground;

@@ -35,6 +35,8 @@ struct CurvesMemory {
 
 struct SceneMemory {
   Camera camera{.pitch = 0.12F};            // a little from above, so that the ground is seen
+  Camera as_framed;                         // while the person has not moved it, it follows what the motion needs
+  long framed_at = -1;                      // State::revision
   float ground = 0;                         // m, under the lowest that the figure comes
   bool framed = false;                      // the camera has been put in front of the scene
   std::shared_ptr<const Scene> framed_for;  // as it was opened

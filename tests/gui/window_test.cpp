@@ -42,6 +42,8 @@ TEST(Window, AThrowIsMadeChangedUndoneSavedAndTheSameInABatch) {
   const gui::Rect ruler = d.place("ruler");
   d.drag("ruler", ruler.width * 0.1F, 0);
   EXPECT_NEAR(d.state().playback.time, 1.2, 0.03);
+  d.frame(20);  // the help has gone
+  d.save_picture("window.png");
 
   // The basket: the motion follows while it is dragged, and one undo step is left of it.
   const int before = d.state().present;
