@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/bspline.h"
 #include "common/diagnostic.h"
@@ -20,6 +21,53 @@ constexpr double shortest_span = 1e-9;
 
 // A problem of more coefficients is a mistake, not a motion.
 constexpr int most_coefficients = 1 << 20;
+
+std::pair<double, double> interval_of(const Problem& problem, const Constants& constants, const Refine& action) {
+  if (!action.interval) return {problem.start, problem.end};
+  const double a = evaluate(problem, constants, action.interval->from, "refine");
+  const double b = evaluate(problem, constants, action.interval->to, "refine");
+  if (!(a < b) || b <= problem.start || a >= problem.end) {
+    throw InputError(fmt::format("the interval [{}, {}] does not meet the animation's time, [{}, {}]", a, b,
+                                 problem.start, problem.end));
+  }
+  return {a, b};
+}
+
+// Which degrees of freedom are meant.
+std::vector<char> named_by(const Problem& problem, const Refine& action) {
+  std::vector<char> named(problem.dofs.size(), action.dofs.empty());
+  for (const std::string& name : action.dofs) {
+    const auto dof = static_cast<std::size_t>(index_of(problem, name));
+    if (dof == named.size()) throw InputError(fmt::format("there is no degree of freedom '{}'", name));
+    named[dof] = 1;
+  }
+  return named;
+}
+
+// How many spans more there are where one is halved `times` times, each time the parts that overlap [a, b].
+double halves(double from, double to, double a, double b, int times) {
+  if (!(from < b && to > a)) return 0;
+  if (from >= a && to <= b) return std::ldexp(1.0, times) - 1;  // all parts do
+  double more = 0;
+  std::vector<std::pair<double, double>> across{{from, to}};  // at most two: those around a and b
+  for (; times > 0; --times) {
+    std::vector<std::pair<double, double>> next;
+    for (const auto& [left, right] : across) {
+      const double middle = left + (right - left) / 2;
+      ++more;
+      for (const auto& [l, r] : {std::pair(left, middle), std::pair(middle, right)}) {
+        if (!(l < b && r > a)) continue;
+        if (l >= a && r <= b) {
+          more += std::ldexp(1.0, times - 1) - 1;
+        } else {
+          next.emplace_back(l, r);
+        }
+      }
+    }
+    across = std::move(next);
+  }
+  return more;
+}
 
 }  // namespace
 
@@ -38,38 +86,38 @@ void halve(Basis& basis, const std::vector<double>& spans, std::vector<double>& 
   curve = insert_knots(basis, curve, middles);
 }
 
-void refine(Problem& problem, const Constants& constants, const Refine& action, Curves& curves) {
-  double a = problem.start, b = problem.end;
-  if (action.interval) {
-    a = evaluate(problem, constants, action.interval->from, "refine");
-    b = evaluate(problem, constants, action.interval->to, "refine");
-    if (!(a < b) || b <= problem.start || a >= problem.end) {
-      throw InputError(fmt::format("the interval [{}, {}] does not meet the animation's time, [{}, {}]", a, b,
-                                   problem.start, problem.end));
+double refined_coefficients(const Problem& problem, const Constants& constants, const Refine& action) {
+  const auto [a, b] = interval_of(problem, constants, action);
+  const auto named = named_by(problem, action);
+  double coefficients = 0;
+  for (std::size_t dof = 0; dof < named.size(); ++dof) {
+    const Basis& basis = problem.dofs[dof].basis;
+    coefficients += basis.size();
+    if (!named[dof]) continue;
+    const auto knots = breakpoints(basis);
+    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+      coefficients += halves(knots[k], knots[k + 1], a, b, action.automatic ? 1 : action.times);
     }
   }
-  std::vector<char> named(problem.dofs.size(), action.dofs.empty());
-  for (const std::string& name : action.dofs) {
-    const auto dof = static_cast<std::size_t>(index_of(problem, name));
-    if (dof == named.size()) throw InputError(fmt::format("there is no degree of freedom '{}'", name));
-    named[dof] = 1;
+  return coefficients;
+}
+
+void refine(Problem& problem, const Constants& constants, const Refine& action, Curves& curves) {
+  const auto [a, b] = interval_of(problem, constants, action);
+  const auto named = named_by(problem, action);
+  if (refined_coefficients(problem, constants, action) > most_coefficients) {
+    throw InputError(fmt::format("more than {} coefficients: refine fewer times", most_coefficients));
   }
   for (int round = 0; round < action.times; ++round) {
-    int coefficients = 0;
     for (std::size_t dof = 0; dof < named.size(); ++dof) {
+      if (!named[dof]) continue;
       Basis& basis = problem.dofs[dof].basis;
-      if (named[dof]) {
-        const auto knots = breakpoints(basis);
-        std::vector<double> spans;
-        for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-          if (knots[k] < b && knots[k + 1] > a) spans.push_back(knots[k]);
-        }
-        halve(basis, spans, curves[dof]);
+      const auto knots = breakpoints(basis);
+      std::vector<double> spans;
+      for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+        if (knots[k] < b && knots[k + 1] > a) spans.push_back(knots[k]);
       }
-      coefficients += basis.size();
-      if (coefficients > most_coefficients) {
-        throw InputError(fmt::format("more than {} coefficients: refine fewer times", most_coefficients));
-      }
+      halve(basis, spans, curves[dof]);
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include "common/assert.h"
 #include "common/diagnostic.h"
+#include "optimizer/refine.h"
 #include "optimizer/session.h"
 #include "protocol/action_json.h"
 #include "protocol/check.h"
@@ -131,6 +132,7 @@ class Peer {
     if (const auto fault = validate(asked.action, session.problem())) {
       throw DocumentError("params", "/action" + fault->path, fault->message);
     }
+    if (const auto* refine = std::get_if<Refine>(&asked.action)) require_room(*refine);
     if (is_edit(asked.action)) {
       session.perform(asked.action);
       return write_edit(result, {asked});
@@ -233,6 +235,22 @@ class Peer {
       throw DocumentError("params", "/problem" + fault->path, fault->message);
     }
     return problem;
+  }
+
+  // What a refinement would make is held to what a problem may be, before anything is made.
+  void require_room(const Refine& action) const {
+    const Problem& problem = session_->problem();
+    const Constants constants = evaluate_constants(problem);
+    const double unknowns =
+        refined_coefficients(problem, constants, action) + static_cast<double>(problem.parameters.size());
+    if (unknowns > allowance_.unknowns) throw beyond("unknowns", allowance_, unknowns);
+    Problem finer = problem;
+    Curves flat;
+    for (const Dof& dof : problem.dofs) flat.emplace_back(dof.basis.size());
+    refine(finer, constants, action, flat);
+    if (const auto fault = validate(finer); fault && !validate(problem)) {
+      throw Error(Code::refused, "the problem would be too large, refine less: " + fault->message);
+    }
   }
 
   static double count(const Problem& problem) {

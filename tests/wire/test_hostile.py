@@ -191,6 +191,39 @@ class Limits(unittest.TestCase):
                     self.assertIn(answer["id"], (number, None))
                     self.assertEqual((answer["error"]["code"], answer["error"]["data"]["limit"]), (code, limit))
 
+    def test_a_refinement_is_held_to_the_limit_before_it_takes_memory(self):
+        problem = peer.problem_of("examples/throw.scene")
+        whole = {"action": "refine", "times": 20}
+        part = {"action": "refine", "from": 0.013, "to": 0.4, "times": 20}
+        with peer.Daemon("optimizer") as daemon:
+            connection = daemon.connect()
+            connection.greet()
+            before = connection.ask("problem/load", problem=problem)["unknowns"]
+            held = daemon.resident_bytes()
+            for action in (whole, part, {"action": "refine", "times": 52}):
+                error = connection.answer(connection.start("action/do", action=action))["error"]
+                self.assertEqual((error["code"], error["data"]["limit"]), (-32014, "unknowns"), error)
+            self.assertLess(daemon.resident_bytes() - held, 16 << 20)
+            self.assertEqual(len(connection.ask("motion/get")["motion"]["dofs"][0]["coefficients"]),
+                             len(problem["dofs"][0]["basis"]["knots"]) - 4)
+        # The count is exact: one unknown less than a refinement makes is too few.
+        for action in ({"action": "refine", "from": 0.013, "to": 0.4, "times": 3}, {"action": "refine", "times": 2}):
+            with peer.Daemon("optimizer") as daemon:
+                connection = daemon.connect()
+                connection.greet()
+                connection.ask("problem/load", problem=problem)
+                connection.ask("action/do", action=action)
+                made = sum(len(dof["coefficients"]) for dof in connection.ask("motion/get")["motion"]["dofs"])
+                made += len(problem["parameters"])
+            self.assertGreater(made, before)
+            for most in (made, made - 1):
+                with peer.Daemon("optimizer", options=["--limit-unknowns", str(most)]) as daemon:
+                    connection = daemon.connect()
+                    connection.greet()
+                    connection.ask("problem/load", problem=problem)
+                    answer = connection.answer(connection.start("action/do", action=action))
+                    self.assertEqual("result" in answer, most == made, answer)
+
     def test_an_idle_session_ends_and_a_busy_one_does_not(self):
         with peer.Daemon("optimizer", "unix", ["--limit-idle", "0.3"]) as daemon:
             idle, stopped = daemon.connect(), daemon.connect()
