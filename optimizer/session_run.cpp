@@ -14,6 +14,8 @@ namespace {
 // How far starts are shaken (rad or m).
 constexpr double start_amplitude = 1;
 
+constexpr auto ended_by_edit = "Stopped: an edit ended the solve from many starts, and no start has moved the motion.";
+
 }  // namespace
 
 void Session::act(const Solve& solve, const Watch& watch) {
@@ -60,19 +62,45 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
       std::copy_n(shaken[dof].begin() + t.from[dof], t.first[dof + 1] - t.first[dof], x.begin() + t.first[dof]);
     }
   }
+  // The best of the starts that have ended is shown after each, in the order of the starts; the motion is moved at the
+  // end only, so that an edit meanwhile edits the one there was.
+  const int before = state_.iterations;
+  std::size_t shown = 0, best = 0;
+  int iterations = before;
   bool stopped = false;
-  const int threads = watch.threads > 0 ? watch.threads : static_cast<int>(std::thread::hardware_concurrency());
-  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, {threads, watch.around}, [&](int) {
+  const auto asked_to_stop = [&] {
     stopped |= (watch.go_on && !watch.go_on()) || restarts_ != restarts;
-    return !stopped;
-  });
-  if (restarts_ != restarts) {
-    return stop("Stopped: an edit ended the solve from many starts, and no start has moved the motion.");
+    return stopped;
+  };
+  const auto look_on = [&](std::span<const Ending> ended) {
+    while (shown < ended.size()) {
+      if (better(ended[shown], ended[best], tolerance)) best = shown;
+      iterations += ended[shown].state.iterations;
+      ++shown;
+      if (watch.progress) {
+        NewtonState reached = ended[best].state;
+        reached.iterations = iterations;
+        std::swap(state_, reached);
+        watch.progress(record());
+        std::swap(state_, reached);
+      }
+      if (shown < points.size() && asked_to_stop()) return false;
+    }
+    return shown == points.size() || !asked_to_stop();
+  };
+  if (asked_to_stop()) {
+    if (restarts_ == restarts)
+      stop(fmt::format("Interrupted before the first of {} starts. ", starts) + standing());
+    else
+      stop(ended_by_edit);
+    return;
   }
+  const int threads = watch.threads > 0 ? watch.threads : static_cast<int>(std::thread::hardware_concurrency());
+  auto endings = solve_from(t, numerics->layout, points, limit, tolerance, {threads, watch.around}, look_on);
+  if (restarts_ != restarts) return stop(ended_by_edit);
 
-  int iterations = state_.iterations;
+  iterations = before;
   Seconds seconds = state_.seconds;
-  std::size_t best = 0;
   for (std::size_t k = 0; k < endings.size(); ++k) {
     iterations += endings[k].state.iterations;
     seconds.evaluate += endings[k].state.seconds.evaluate;
@@ -80,6 +108,7 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
     if (better(endings[k], endings[best], tolerance)) best = k;
   }
   const StepResult result = endings[best].result;
+  const auto ended = std::ranges::count(endings, false, &Ending::cut);
   const auto groups = distinct(endings, tolerance);
   std::size_t converged = 0;
   for (const auto& group : groups) {
@@ -92,15 +121,22 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   state_.seconds = seconds;
   judged_ = true;
   other_ = {};
+  const std::string found =
+      fmt::format("{} converged, to {} distinct minim{}.", converged, groups.size(), groups.size() == 1 ? "um" : "a");
+  if (stopped) {
+    stop(fmt::format("Interrupted after {}, when of {} starts {} had ended and {} The best so far is kept. ", count(),
+                     starts, ended, found) +
+         (result == StepResult::converged ? "It has converged." + standing_elsewhere(tolerance) : standing()));
+    if (watch.progress) watch.progress(record());
+    return;
+  }
   if (result == StepResult::stepped) {
-    outcome_ = {Status::stopped, (stopped ? "Interrupted after " : "Stopped after ") + count() + ". " + standing()};
+    stop("Stopped after " + count() + ". " + standing());
   } else {
     outcome_ = outcome_of(result, now_->t(), now_->layout, state_, tolerance);
     outcome_.message += standing_elsewhere(tolerance);
   }
-  outcome_.message += fmt::format(" Of {} starts {} converged, to {} distinct minim{}.", starts, converged,
-                                  groups.size(), groups.size() == 1 ? "um" : "a");
-  if (watch.progress) watch.progress(record());
+  outcome_.message += fmt::format(" Of {} starts {}", starts, found);
 }
 
 // By another method, which `make` makes: for the first step, and again for what edits have changed.  Where the same

@@ -1,6 +1,7 @@
 #include "optimizer/starts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -25,10 +26,11 @@ bool same(const Ending& a, const Ending& b) {
 
 std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
                                const std::vector<std::vector<double>>& starts, int iterations, double tolerance,
-                               const Crew& crew, const std::function<bool(int ended)>& wait) {
+                               const Crew& crew, const std::function<bool(std::span<const Ending> ended)>& wait) {
   const int count = static_cast<int>(starts.size());
   std::vector<Ending> endings(starts.size());
-  std::atomic<int> next = 0, ended = 0;
+  std::vector<std::atomic<bool>> ended(starts.size());
+  std::atomic<int> next = 0;
   std::atomic<bool> stop = false;
   const auto work = [&] {
     Newton newton(t, layout);
@@ -43,7 +45,8 @@ std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
       if (ending.result == StepResult::stepped && ending.state.measures.within(tolerance)) {
         ending.result = StepResult::converged;
       }
-      ++ended;
+      ending.cut = ending.result == StepResult::stepped && ending.state.iterations < iterations;
+      ended[k] = true;
     }
   };
   std::vector<std::exception_ptr> failures(std::clamp(crew.threads, 1, count));
@@ -63,10 +66,10 @@ std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
         }
       });
     }
-    for (int known = -1; known < count && !stop;) {
-      known = ended;
-      if (!wait(known)) stop = true;
-      if (known < count && !stop) std::this_thread::sleep_for(pause);
+    for (std::size_t known = 0; !stop;) {
+      while (known < endings.size() && ended[known]) ++known;
+      if (!wait(std::span(endings).first(known)) || known == endings.size()) break;
+      std::this_thread::sleep_for(pause);
     }
   }
   for (const std::exception_ptr& failure : failures) {

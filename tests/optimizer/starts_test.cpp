@@ -61,13 +61,58 @@ TEST(Starts, StayInTheWindow) {
   EXPECT_NE(after.dofs[0], before.dofs[0]);
 }
 
-// What was reached when the run is interrupted is kept.
+// Each start that has ended is told of in its turn, with the best so far; so the record does not depend on the threads.
+TEST(Starts, AreToldOfOneByOne) {
+  RunOptions options;
+  options.record = true;
+  std::vector<IterationRecord> lines;
+  options.progress = [&](const IterationRecord& line) { lines.push_back(line); };
+  std::vector<std::vector<IterationRecord>> records;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    lines.clear();
+    Motion motion = run_scene(valleys + "solve starts 20\n", options);
+    EXPECT_EQ(lines, motion.record);
+    ASSERT_EQ(lines.size(), 21U);  // the first is the start
+    for (std::size_t k = 2; k < lines.size(); ++k) {
+      EXPECT_GT(lines[k].iteration, lines[k - 1].iteration);
+      EXPECT_LE(lines[k].objective, lines[k - 1].objective);
+    }
+    EXPECT_EQ(lines.back().objective, motion.objective);
+    EXPECT_EQ(lines.back().iteration, motion.iterations);
+    for (IterationRecord& line : motion.record) line.seconds = 0;
+    records.push_back(motion.record);
+  }
+  EXPECT_EQ(records[0], records[1]);
+}
+
+// What was reached when the run is interrupted is kept, and is told as interrupted even where it has converged.
 TEST(Starts, CanBeInterrupted) {
   RunOptions options;
-  options.interrupted = [] { return true; };
-  const Motion motion = run_scene(valleys + "solve starts 50\n", options);
-  EXPECT_EQ(motion.status, Status::stopped);
-  EXPECT_NE(motion.message.find("Interrupted"), std::string::npos) << motion.message;
+  int told = 0;
+  options.progress = [&](const IterationRecord&) { ++told; };
+  for (const int most : {1, 4}) {
+    told = 0;
+    options.interrupted = [&] { return told >= most; };  // the first line is the start
+    const Motion motion = run_scene(valleys + "solve starts 50\n", options);
+    EXPECT_EQ(motion.status, Status::stopped) << motion.message;
+    EXPECT_TRUE(motion.message.starts_with("Interrupted")) << motion.message;
+    if (most == 1) {
+      EXPECT_NE(motion.message.find("before the first of 50 starts"), std::string::npos) << motion.message;
+      EXPECT_EQ(motion.iterations, 0);
+      EXPECT_TRUE(motion.minima.empty());
+    } else {
+      std::size_t converged = 0;
+      for (const Minimum& minimum : motion.minima) converged += minimum.starts.size();
+      EXPECT_GE(converged, 3U) << motion.message;
+      const auto at = motion.message.find("of 50 starts ");
+      ASSERT_NE(at, std::string::npos) << motion.message;
+      EXPECT_GE(std::stoi(motion.message.substr(at + 13)), 3) << motion.message;
+      EXPECT_NE(motion.message.find("It has converged."), std::string::npos) << motion.message;
+      ASSERT_FALSE(motion.minima.empty());
+      EXPECT_EQ(motion.minima[0].objective, motion.objective);
+    }
+  }
 }
 
 TEST(Starts, AreNewtons) { EXPECT_THROW(run_scene(valleys + "solve method bfgs starts 2\n"), InputError); }

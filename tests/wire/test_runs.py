@@ -210,16 +210,20 @@ class Runs(unittest.TestCase):
                 self.assertEqual(session.log, [{"action": "iterate", "iterations": 2}, params["action"]])
                 self.assertEqual(without_words(self.replayed(session.log)), without_words(session.motion()))
 
-    def test_a_cancelled_solve_from_many_starts_is_not_logged(self):
+    def test_a_solve_from_many_starts_tells_of_each_and_is_not_logged_when_cancelled(self):
         with peer.Daemon("optimizer") as daemon:
             session = Session(daemon)
             session.load(self.problem)
-            run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "starts": 1000})
-            session.motion()  # the run has begun
+            run = session.peer.start("action/do", action={"action": "solve", "iterations": 3, "tolerance": 1e-300,
+                                                          "starts": 1000})
+            told = [session.wait_for_progress() for _ in range(3)]
+            self.assertEqual(told[0]["iteration"] % 3, 0)
+            self.assertLess(told[0]["iteration"], told[1]["iteration"])
+            self.assertLess(told[1]["iteration"], told[2]["iteration"])
             session.peer.notify("$/cancelRequest", id=run)
             outcome = session.note(session.peer.answer(run))
             self.assertEqual((outcome["status"], outcome["log"]), ("stopped", []))
-            self.assertIn("Interrupted", outcome["message"])
+            self.assertRegex(outcome["message"], "^Interrupted .* of 1000 starts [0-9]+ had ended")
 
     def test_threads_of_many_starts_allocate_for_their_session(self):
         with peer.Daemon("optimizer", options=["--limit-memory", "60e6"]) as daemon:
