@@ -35,6 +35,8 @@ void for_each_limit(const Transcription& t, Visit visit) {
 Carried carried(const Transcription& from, const Layout& layout, const NewtonState& state, const Transcription& to) {
   Carried result;
   result.mu = state.barrier.mu;
+  const auto& [violation, sum, stationarity, gap] = state.measures;
+  if (state.condition == StepResult::stepped) result.reached = std::max({violation, stationarity, gap});
   result.dual.assign(to.rows.size(), 0.0);
   result.lower_dual.assign(to.unknowns(), 0.0);
   result.upper_dual.assign(to.unknowns(), 0.0);

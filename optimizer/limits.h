@@ -8,6 +8,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "optimizer/layout.h"
@@ -25,8 +26,9 @@ struct Barrier {
 // Of an earlier solve, for limits and bounds that are still there; 0 where nothing is known.
 struct Carried {
   double mu = 0;
-  std::vector<double> dual;                    // one a row
-  std::vector<double> lower_dual, upper_dual;  // one an unknown
+  double reached = std::numeric_limits<double>::infinity();  // the tolerance that solve's point was within
+  std::vector<double> dual;                                  // one a row
+  std::vector<double> lower_dual, upper_dual;                // one an unknown
 };
 
 class Limits {

@@ -23,6 +23,9 @@ constexpr double first_mu = 0.1, barrier_error = 10, mu_factor = 0.2, mu_power =
 // this part.
 constexpr double warm_mu = 1e-4, warm_push = 1e-8;
 
+// A point within this is that of a solve which has ended, to a tolerance of some use.
+constexpr double of_a_solve = 1e-3;
+
 // Multipliers other than the least-squares ones are taken where they leave less than this of the gradient's square.
 constexpr double much_better = 0.25;
 
@@ -174,19 +177,29 @@ NewtonState Newton::start(std::vector<double> x, const Carried* carried) {
   state.values = evaluate(t_, state.x, workspace_, state.active);
   state.radius = first_radius;
   const double size = std::isfinite(state.values.objective) ? std::abs(state.values.objective) : 0;
-  const double mu = first_mu * std::max(1.0, size) / std::max(1, limits_.count());
-  auto inside = state.x;
-  if (carried && carried->mu > 0) {
-    const double low = std::clamp(warm_mu * mu, std::min(carried->mu, mu), mu);
-    limits_.push_inside(inside, warm_push);
-    state.barrier = limits_.start(inside, residual_of(state.values), low);
-    limits_.carry(*carried, layout_, residual_of(state.values), inside, state.barrier);
-  } else {
-    limits_.push_inside(inside);
-    state.barrier = limits_.start(inside, residual_of(state.values), mu);
+  const double unit = std::max(1.0, size) / std::max(1, limits_.count());
+  const Eigen::VectorXd c = residual_of(state.values);
+  const auto begin = [&](double mu, double part) {
+    auto inside = state.x;
+    limits_.push_inside(inside, part);
+    state.barrier = limits_.start(inside, c, mu);
+    if (part < 1) limits_.carry(*carried, layout_, c, inside, state.barrier);
+    state.outside = inside != state.x;
+    judge(state);
+  };
+  const double first = first_mu * unit;
+  bool begun = false;
+  if (carried && carried->reached <= of_a_solve && !limits_.none()) {
+    // An edit that asks nothing new of the motion leaves it where it is: solved.
+    const double tolerance = std::max(carried->reached, Solve{}.tolerance), last = last_mu * tolerance * unit;
+    begin(carried->mu > 0 ? std::min(carried->mu, last) : last, warm_push);
+    begun = state.condition == StepResult::stepped && !state.outside && state.measures.within(tolerance);
   }
-  state.outside = inside != state.x;
-  judge(state);
+  if (!begun && carried && carried->mu > 0) {
+    begin(std::clamp(warm_mu * first, std::min(carried->mu, first), first), warm_push);
+  } else if (!begun) {
+    begin(first, 1);
+  }
   state.most_violation = std::max(1.0, state.measures.sum);
   state.filter.limit(most_violation_factor * state.most_violation);
   return state;

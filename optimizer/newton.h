@@ -70,7 +70,8 @@ class Newton {
   // Both must outlive it.
   Newton(const Transcription& transcription, const Layout& layout);
 
-  // Near the dual point of an earlier solve, where there is one: the barrier then begins low.
+  // Near the dual point of an earlier solve, where there is one: the barrier then begins low, or where that solve ended
+  // if what it had reached still holds.
   NewtonState start(std::vector<double> x, const Carried* carried = nullptr);
 
   // One accepted step, or why there is none.  The state holds the point reached, judged.

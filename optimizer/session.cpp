@@ -541,7 +541,7 @@ std::vector<double> Session::settled() const {
 }
 
 Motion Session::motion(double tolerance) {
-  if (!judged_) iterate(0, tolerance, {});
+  if (!judged_) judge(tolerance);
   const Transcription& t = now_->whole;
   const Problem& problem = now_->problem;
   const auto x = settled();

@@ -56,7 +56,8 @@ class Session {
   // then as it was before.
   void update(Problem problem);
 
-  // The motion as it stands, with what the last action came to.  One edited since is judged first, by the tolerance.
+  // The motion as it stands, with what the last `solve` or `iterate` came to.  One edited since is judged first, by the
+  // tolerance, under the problem as it is now.
   Motion motion(double tolerance = Solve{}.tolerance);
   // Goes on from this motion.  With a checkpoint: where that was made, to the same bits, edits, window and damping
   // included, in a session of the same problem.  Without: as far as names agree, on its knots where they span the same
@@ -138,6 +139,7 @@ class Session {
   void reshape(const Curves& curves);
   void refine_where_needed(double tolerance);
   void resume(const Motion& motion);
+  void judge(double tolerance);
   bool reached(double tolerance) const;
   std::string count() const;
   std::string standing() const;

@@ -196,7 +196,7 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
     restarts = restarts_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
     const auto use_up = [&] { stop("Stopped after " + count() + ", as many as were allowed. " + standing()); };
-    if (last && !reached(tolerance)) return use_up();
+    if (last && state_.condition == StepResult::stepped && !reached(tolerance)) return use_up();
     std::optional<NewtonState> here;
     if (last) here = state_;
     if (auto outcome = step(afresh)) {
@@ -210,6 +210,15 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
     }
     if (watch.progress) watch.progress(record());
   }
+}
+
+// Says what is true of a motion that no `solve` or `iterate` has spoken of since it, or the problem, was edited.
+void Session::judge(double tolerance) {
+  iterate(0, tolerance, {});
+  if (outcome_.status != Status::stopped) return;
+  stop((state_.iterations == 0 ? "Nothing has been iterated yet. "
+                               : "Edited since the last iteration (" + count() + " so far). ") +
+       standing() + standing_elsewhere(tolerance));
 }
 
 void Session::stop(std::string message) {

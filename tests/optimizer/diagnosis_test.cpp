@@ -243,6 +243,8 @@ TEST(NotFinite, NamesExpressionStatementAndTime) {
               {"sqrt(x) is not a number at ", "in an integral of 'c' (line 5): x is -0.3 there."});
   expect_said(failed("constrain c: exp(1e4*k + x) = 1 over [0, 1] every 0.5 weight 2\n"), Status::failed,
               {"exp(", "is beyond every number at 0 s, in 'c' (line 5)"});
+  expect_said(failed("minimize o: integral(log(x))\niterate 0\n"), Status::failed,
+              {"log(x) is not a number at ", "in 'o' (line 5): x is -0.3 there."});
   expect_said(failed("constrain c: x = sqrt(x) at 0 when t > 0.5\nminimize integral(x''^2)\n"), Status::converged, {});
 }
 

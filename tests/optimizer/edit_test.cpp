@@ -165,6 +165,36 @@ TEST(Edits, WhatIsDeclaredAfterTheLastActionIsJudged) {
   EXPECT_GT(motion.violation, 1);
 }
 
+// A solved motion stays so where an edit asks nothing new of it, and is no more than stopped where it does.
+TEST(Edits, TheStatusIsWhatIsTrueOfTheMotionAsItStands) {
+  const std::string question =
+      "time [0, 1]\nconstant goal = 1\ntrajectory bspline spans 16\ndof x\ndof y in [-2, 2]\n"
+      "constrain start: (x, x') = 0 at 0\nconstrain end: x = goal at 1\nconstrain high: y >= 0.3 over [0, 1]\n"
+      "constrain idle: y <= 1.9 over [0, 1]\nminimize integral(x''^2 + exp(x) + y^2)\nminimize more: integral(y^2)\n";
+  const auto after = [&](const std::string& edits) { return run(compiled(question + "solve\n" + edits), {}); };
+  const Motion solved = after("");
+  ASSERT_EQ(solved.status, Status::converged) << solved.message;
+  for (const char* harmless :
+       {"bound x in [-5, 5]\n", "bound y in [-1, 3]\n", "bound x in [-5, 5]\nbound x in [-4, 9]\n", "disable idle\n",
+        "set goal = 1\n", "damp 0.1\n", "window [0.1, 0.8]\n"}) {
+    const Motion motion = after(harmless);
+    EXPECT_EQ(motion.status, Status::converged) << harmless << motion.message;
+    EXPECT_EQ(motion.dofs[0].coefficients, solved.dofs[0].coefficients);
+    EXPECT_EQ(motion.dofs[1].coefficients, solved.dofs[1].coefficients);
+    EXPECT_EQ(motion.iterations, solved.iterations);
+    EXPECT_EQ(after(harmless + std::string("solve\n")).iterations, solved.iterations) << harmless;
+  }
+  for (const char* edit : {"scope end at 0.9\n", "bound y in [0.4, 2]\n", "disable high\n", "set goal = 1.5\n",
+                           "shake amplitude 0.1\n", "weight more = 3\nbound x in [-5, 5]\nset goal = 1.01\n"}) {
+    const Motion motion = after(edit);
+    EXPECT_EQ(motion.status, Status::stopped) << edit << motion.message;
+    EXPECT_TRUE(motion.message.starts_with("Edited since the last iteration")) << edit << motion.message;
+    EXPECT_EQ(after(edit + std::string("solve\n")).status, Status::converged) << edit;
+  }
+  const Motion sketch = run(compiled(question + "shake amplitude 0.1\n"), {});
+  EXPECT_TRUE(sketch.message.starts_with("Nothing has been iterated yet")) << sketch.message;
+}
+
 TEST(Edits, NothingToFindIsRefused) { EXPECT_THROW(run(compiled("time [0, 1]\n"), {}), InputError); }
 
 TEST(Edits, ARefusedActionKeepsTheMotionReached) {
