@@ -31,6 +31,7 @@ int run(const Options& options) {
   hub_options.symbolic = target(options.symbolic, "symbolic", options);
   hub_options.optimizer = target(options.optimizer, "optimizer", options);
   hub_options.folder = state_folder();
+  hub_options.wake = wake_window;
   Hub hub(std::move(hub_options));
   if (!options.file.empty()) hub.post(Open{options.file});
   return run_window(hub, options.scale, options.file.empty());

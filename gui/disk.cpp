@@ -113,6 +113,11 @@ void Disk::perform(Effect effect) {
   arrived_.notify_one();
 }
 
+bool Disk::idle() {
+  const std::lock_guard lock(mutex_);
+  return queue_.empty() && !busy_;
+}
+
 void Disk::run() {
   begin();
   std::unique_lock lock(mutex_);
@@ -127,9 +132,11 @@ void Disk::run() {
     }
     const Effect effect = std::move(queue_.front());
     queue_.pop_front();
+    busy_ = true;
     lock.unlock();
     std::visit([&](const auto& which) { act(which); }, effect);
     lock.lock();
+    busy_ = false;
   }
 }
 

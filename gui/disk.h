@@ -30,6 +30,7 @@ class Disk {
   Disk& operator=(const Disk&) = delete;
 
   void perform(Effect effect);  // one about files or journals; returns at once
+  bool idle();                  // all that was asked for is done
 
  private:
   void run();
@@ -53,7 +54,7 @@ class Disk {
   std::mutex mutex_;  // of the queue
   std::condition_variable arrived_;
   std::deque<Effect> queue_;
-  bool ending_ = false;
+  bool ending_ = false, busy_ = false;
 
   // The thread's own.
   int journal_ = -1;  // locked while it is open

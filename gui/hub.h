@@ -41,6 +41,9 @@ class Hub {
   // The window closes: the journal goes, unless something is unsaved and not to be thrown away.
   void close(bool discard = false);
 
+  // Everything so far stands in the journal: from here on a crash loses nothing of it.
+  bool written() const { return disk_->idle(); }
+
   int symbolic_process() const { return symbolic_->process(); }  // 0 where there is none
   int optimizer_process() const { return optimizer_->process(); }
 

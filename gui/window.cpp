@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <vector>
@@ -15,6 +16,11 @@
 
 namespace spacetime::gui {
 namespace {
+
+// Where nothing happens nothing is drawn.  What changes is drawn so often, until hover and fading have settled; a clock
+// (a notice that goes) is looked at so rarely.
+constexpr int frames_after_change = 30;
+constexpr double longest_wait = 0.25;  // s
 
 // GLFW tells why only to a callback.
 std::string last_error;
@@ -89,6 +95,8 @@ class Shell {
 
 }  // namespace
 
+void wake_window() { glfwPostEmptyEvent(); }
+
 int run_window(Hub& hub, float scale, bool welcome) {
   Shell shell;
   Memory memory;
@@ -103,10 +111,17 @@ int run_window(Hub& hub, float scale, bool welcome) {
   const auto scene = std::make_unique<SceneView>();
   bool styled = false, dark = false;
   auto before = std::chrono::steady_clock::now();
+  int frames_awake = frames_after_change;
   while (!memory.quit) {
-    glfwPollEvents();
+    const auto waited_since = std::chrono::steady_clock::now();
+    if (frames_awake > 0)
+      glfwPollEvents();
+    else
+      glfwWaitEventsTimeout(longest_wait);
     const auto now = std::chrono::steady_clock::now();
-    hub.step(std::chrono::duration<double>(now - before).count());
+    const bool woken = frames_awake == 0 && std::chrono::duration<double>(now - waited_since).count() < longest_wait;
+    frames_awake = std::max(0, frames_awake - 1);
+    if (hub.step(std::chrono::duration<double>(now - before).count()) || woken) frames_awake = frames_after_change;
     before = now;
     const State& state = hub.state();
     if (!styled || dark != state.dark) {
@@ -136,6 +151,7 @@ int run_window(Hub& hub, float scale, bool welcome) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glfwSwapBuffers(shell.window);
+    if (!events.empty() || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive()) frames_awake = frames_after_change;
     for (Event& event : events) hub.post(std::move(event));
   }
   hub.step(0);  // what was asked for last: saving, most often

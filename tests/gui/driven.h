@@ -11,7 +11,10 @@ namespace spacetime::test {
 // Options with the daemons of this build and a folder for journals (empty: none).
 gui::HubOptions daemons(const std::string& folder = {});
 
-// Steps until the condition holds; a test failure after ten seconds without.
+// How often something is killed: $SPACETIME_KILLS, or so often in an ordinary run.
+int kills(int usual);
+
+// Steps until the condition holds; a test failure after half a minute without.
 void until(gui::Hub& hub, const std::function<bool(const gui::State&)>& holds, const std::string& what);
 // Steps until nothing is under way any more: no run, no act, and the present entry has its checkpoint.
 void until_quiet(gui::Hub& hub);

@@ -42,11 +42,11 @@ TEST(HubDaemons, AreStartedAgainWithoutATrace) {
         if (process != 0 && kill(process, SIGKILL) == 0) ++killed;
       }
     });
-    for (int i = 0; i < 2; ++i)
+    for (int i = 0; i < 2 || killed < kills(3); ++i)
       EXPECT_TRUE(motion_of_a_session(hub) == expected) << (optimizer ? "optimizer" : "symbolic");
     over = true;
     killer.join();
-    EXPECT_GT(killed, 2);
+    EXPECT_GE(killed, kills(3));
     EXPECT_GT((optimizer ? hub.state().optimizer : hub.state().symbolic).restarts, 0);
   }
 }
