@@ -34,10 +34,17 @@ std::shared_ptr<spdlog::logger> logger_of(const Service& service, bool verbose) 
 // under "text" as a string.
 class Recorder {
  public:
-  explicit Recorder(const std::string& file) : out_(file, std::ios::binary | std::ios::trunc) {
+  // Throws InputError where nothing can be written there: on a full disk that shows with the first byte only.
+  explicit Recorder(const std::string& file) : file_(file), out_(file, std::ios::binary | std::ios::trunc) {
+    out_ << '\n' << std::flush;
+    if (out_) {
+      out_.close();
+      out_.open(file, std::ios::binary | std::ios::trunc);
+    }
     if (!out_) throw InputError("cannot write the record '" + file + "'");
   }
-  void note(int session, std::string_view message, bool from_peer) {
+  // False once, where the record ends here because it cannot be written any further.
+  bool note(int session, std::string_view message, bool from_peer) {
     Writer to(false);
     to.object([&] {
       to.member("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
@@ -51,10 +58,14 @@ class Recorder {
         to.json(message);
       }
     });
-    out_ << to.take() << '\n' << std::flush;
+    const bool was_whole = static_cast<bool>(out_);
+    if (was_whole) out_ << to.take() << '\n' << std::flush;
+    return out_ || !was_whole;
   }
+  const std::string& file() const { return file_; }
 
  private:
+  std::string file_;
   std::ofstream out_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
@@ -76,7 +87,7 @@ class Server {
       if (!stopped) end();
     });
     if (options_.listen.empty()) {
-      admit(standard_stream(context_));
+      admit(own_stream());
     } else {
       listener_ = listen(context_, parse_address(options_.listen), options_.credentials);
       log_->info("listening on {}", listener_->address());
@@ -87,6 +98,14 @@ class Server {
   }
 
  private:
+  std::unique_ptr<Stream> own_stream() {
+    try {
+      return standard_stream(context_);
+    } catch (const std::system_error& error) {
+      throw InputError(std::string("the session cannot begin: ") + error.what());
+    }
+  }
+
   void admit(std::unique_ptr<Stream> stream) {
     const bool room = static_cast<double>(sessions_) < options_.allowance.sessions;
     if (!room && peers_.size() - sessions_ >= most_refusals) return;
@@ -94,7 +113,8 @@ class Server {
     Events events;
     if (recorder_) {
       events.passed = [this, number](std::string_view message, bool from_peer) {
-        recorder_->note(number, message, from_peer);
+        if (recorder_->note(number, message, from_peer)) return;
+        log_->error("the record '{}' cannot be written any further: what follows is not in it", recorder_->file());
       };
     }
     events.gone = [this, number, room] {
@@ -111,6 +131,7 @@ class Server {
       peers_.emplace(number, peer);
       peer->start();
     } catch (const std::system_error& error) {  // no more threads
+      if (!listener_) throw InputError(std::string("the session cannot begin: ") + error.what());
       log_->warn("session {} cannot begin: {}", number, error.what());
       sessions_ -= room ? 1 : 0;
     }

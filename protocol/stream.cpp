@@ -1,5 +1,7 @@
 #include "protocol/stream.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +15,7 @@
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
+#include <cerrno>
 
 #include "common/diagnostic.h"
 
@@ -122,6 +125,34 @@ std::shared_ptr<asio::ssl::context> tls_context(const Credentials& credentials, 
   return context;
 }
 
+// While one daemon looks whether a socket is in use, and puts its own there, others wait: of two that find one that a
+// killed daemon has left, the second would else take away the first one's.  The lock ends with its process.
+class PathLock {
+ public:
+  explicit PathLock(const std::string& path) : file_(path + ".lock") {
+    for (;;) {
+      descriptor_ = ::open(file_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
+      if (descriptor_ < 0) throw InputError("cannot listen on '" + path + "': '" + file_ + "' cannot be made");
+      while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+      struct stat held {
+      }, there{};
+      if (::fstat(descriptor_, &held) == 0 && ::lstat(file_.c_str(), &there) == 0 && held.st_ino == there.st_ino)
+        return;
+      ::close(descriptor_);  // whoever had it has removed it meanwhile
+    }
+  }
+  ~PathLock() {
+    ::unlink(file_.c_str());
+    ::close(descriptor_);
+  }
+  PathLock(const PathLock&) = delete;
+  PathLock& operator=(const PathLock&) = delete;
+
+ private:
+  std::string file_;
+  int descriptor_ = -1;
+};
+
 class SocketListener final : public Listener {
  public:
   SocketListener(asio::io_context& context, const Address& address, const Credentials& credentials)
@@ -171,6 +202,7 @@ class SocketListener final : public Listener {
     if (path.size() >= sizeof(sockaddr_un::sun_path))
       throw InputError("the path of a UNIX socket is too long: " + path);
     const asio::local::stream_protocol::endpoint endpoint(path);
+    const PathLock lock(path);
     struct stat status {};
     if (::lstat(path.c_str(), &status) == 0) {
       if (!S_ISSOCK(status.st_mode)) throw InputError("'" + path + "' is there already and is no socket");

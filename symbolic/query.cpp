@@ -272,6 +272,7 @@ std::unique_ptr<Understood> understand(std::string_view text) {
 
 Answer query(Understood& scene, std::string_view what, std::string_view by) {
   if (!scene.diagnostics.empty()) return refused(what, "the scene has mistakes");
+  if (std::max(what.size(), by.size()) > largest_scene) return refused({}, "this is larger than 16 MiB: ask for less");
   Answer out = named(scene.model, what).value_or(Answer{});
   if (out.values.empty()) {
     if (is_unknown(scene.model, what)) return refused(what, unknown(scene.model, what));

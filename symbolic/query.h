@@ -40,6 +40,7 @@ struct Answer {
 // most zero, where it holds), an objective term's the integrand, or all of it where it is not one integral, and a
 // constant's what it follows from.  `what` may also be statements `let NAME = ...`, of which the last is meant: so the
 // text that print_text gives is a question, too.
+// No larger than a scene (largest_scene).
 // With `by` (a degree of freedom or a derivative of it, a constant, a parameter): the partial derivative.
 Answer query(Understood& scene, std::string_view what, std::string_view by = {});
 

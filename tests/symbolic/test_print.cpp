@@ -279,6 +279,17 @@ TEST(Print, DotEscapesQuotes) {
   EXPECT_NE(dot.find("[label=\"mul\"]"), std::string::npos) << dot;
 }
 
+TEST(Query, RefusesATextThatIsLargerThanAScene) {
+  const auto scene = understand("time [0, 1]\n");
+  const std::string most = "1" + std::string(largest_scene - 1, ' ');
+  EXPECT_TRUE(query(*scene, most));
+  for (const auto& [what, by] : {std::pair(most + " ", std::string()), std::pair(std::string("1"), most + " ")}) {
+    const Answer answer = query(*scene, what, by);
+    ASSERT_EQ(answer.diagnostics.size(), 1u);
+    EXPECT_EQ(answer.diagnostics[0].message, "this is larger than 16 MiB: ask for less");
+  }
+}
+
 TEST(Query, RefusesInWordsThatHelp) {
   const auto scene = understand(file_text("examples/throw.scene"));
   EXPECT_EQ(printed(*scene, "enrgy"), "the scene has no 'enrgy': did you mean 'energy'?");

@@ -2,6 +2,7 @@
 
 Standard library only: what is tested here is also that a stranger can write a client in a page.
 """
+import atexit
 import json
 import os
 import select
@@ -48,6 +49,7 @@ class Certificates:
 
     def __init__(self):
         self.directory = tempfile.TemporaryDirectory()
+        atexit.register(self.directory.cleanup)
         subprocess.run([os.path.join(SOURCE, "protocol", "certificates.sh"), self.directory.name, "localhost",
                         "127.0.0.1", "10.0.3.3", "10.0.4.3"], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
@@ -70,7 +72,7 @@ class Daemon:
     certificates = None  # made when first needed, for all
 
     def __init__(self, name, transport="stdio", options=()):
-        self.transport = transport
+        self.transport, self.directory, self.opened = transport, None, []
         arguments = [path_of(name), "serve", *options]
         if transport == "stdio":
             self.process = subprocess.Popen(arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -104,6 +106,12 @@ class Daemon:
         return Peer(self.open_socket(), framing)
 
     def open_socket(self):
+        """A connection; closed with the daemon at the latest."""
+        opened = self._open_socket()
+        self.opened.append(opened)
+        return opened
+
+    def _open_socket(self):
         if self.transport == "unix":
             plain = socket.socket(socket.AF_UNIX)
             plain.connect(self.address[len("unix:"):])
@@ -138,6 +146,10 @@ class Daemon:
         if self.process.poll() is None:
             self.process.kill()
             self.process.wait()
+        for stream in self.opened:
+            stream.close()
+        if self.directory:
+            self.directory.cleanup()
         if self.transport == "stdio":
             self.process.stdin.close()
             self.process.stdout.close()

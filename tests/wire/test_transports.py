@@ -1,5 +1,7 @@
 """How daemons come and go: sockets and their modes, ends of input, signals, dying parents."""
 import os
+import re
+import resource
 import select
 import signal
 import socket
@@ -40,6 +42,25 @@ class Sockets(unittest.TestCase):
                 self.assertEqual(third.wait(peer.PATIENCE), 0)
             self.assertFalse(os.path.exists(path))
 
+    def test_of_daemons_that_begin_at_once_one_has_the_path(self):
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "socket")
+            for _ in range(12):
+                if not os.path.exists(path):  # what a killed one has left
+                    with socket.socket(socket.AF_UNIX) as left:
+                        left.bind(path)
+                daemons = [self.serve(path) for _ in range(6)]
+                said = [daemon.stderr.readline() for daemon in daemons]
+                self.assertEqual(sum("listening on" in line for line in said), 1, said)
+                self.assertEqual(sum("a daemon listens on" in line for line in said), 5, said)
+                with socket.socket(socket.AF_UNIX) as connection:
+                    connection.connect(path)
+                self.assertEqual(os.listdir(directory), ["socket"])
+                for daemon in daemons:
+                    daemon.kill()
+                    daemon.wait(peer.PATIENCE)
+                    daemon.stderr.close()
+
     def test_a_socket_that_has_been_replaced_is_left_alone(self):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "socket")
@@ -65,7 +86,46 @@ class Sockets(unittest.TestCase):
             self.assertEqual((run.returncode, "expected unix:/path" in run.stderr), (1, True), run.stderr)
 
 
+class Records(unittest.TestCase):
+    def test_one_that_cannot_be_written_is_refused_at_the_beginning(self):
+        with tempfile.TemporaryDirectory() as directory:
+            for file in ("/dev/full", directory, os.path.join(directory, "nowhere", "record")):
+                run = subprocess.run([peer.path_of("symbolic"), "serve", "--record", file], stdin=subprocess.DEVNULL,
+                                     capture_output=True, text=True, timeout=peer.PATIENCE)
+                self.assertEqual((run.returncode, run.stdout), (1, ""))
+                self.assertIn(f"cannot write the record '{file}'", run.stderr)
+
+    def test_one_that_can_be_written_no_further_is_told_of_once(self):
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))
+
+        with tempfile.TemporaryDirectory() as directory:
+            record = os.path.join(directory, "record")
+            ask = '{"jsonrpc": "2.0", "id": %d, "method": "initialize", "params": {"protocol": 1}}\n'
+            run = subprocess.run([peer.path_of("symbolic"), "serve", "--record", record],
+                                 input="".join(ask % k for k in range(5)), preexec_fn=small_files, capture_output=True,
+                                 text=True, timeout=peer.PATIENCE)
+            self.assertEqual((run.returncode, len(run.stdout.splitlines())), (0, 5))  # the peer is served all the same
+            self.assertEqual(run.stderr.count("cannot be written any further"), 1, run.stderr)
+
+
 class Ends(unittest.TestCase):
+    def test_a_session_without_threads_ends_with_a_sentence(self):
+        with open(peer.path_of("symbolic"), "rb") as program:
+            if re.search(rb"__[at]san_init", program.read()):
+                self.skipTest("sanitizers want more addresses than this leaves")
+
+        def few_threads(most):
+            resource.setrlimit(resource.RLIMIT_STACK, (1 << 32, resource.RLIM_INFINITY))
+            resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+        for most in (3 << 30, 7 << 30, 11 << 30):  # bytes of addresses: for none, one and two of three threads
+            with subprocess.Popen([peer.path_of("symbolic"), "serve"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, preexec_fn=lambda most=most: few_threads(most), text=True) as run:
+                self.assertIn("the session cannot begin", run.stderr.readline())
+                self.assertEqual(run.wait(peer.PATIENCE), 1)
+
     def running(self, daemon):
         connection = daemon.connect()
         connection.greet()
