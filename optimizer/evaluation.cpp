@@ -298,6 +298,22 @@ Values evaluate(const Transcription& t, std::span<const double> x, Workspace& wo
   return values;
 }
 
+Eigen::VectorXd residual_of(const Transcription& t, const Layout& layout, const Values& values) {
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(layout.size());
+  for (std::size_t r = 0; r < t.rows.size(); ++r) c[layout.of_row[r]] = values.residual[r];
+  return c;
+}
+
+Eigen::VectorXd soft_weights(const Transcription& t, const Layout& layout, const Eigen::VectorXd& c) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(layout.size());
+  for (std::size_t r = 0; r < t.rows.size(); ++r) {
+    const Row& row = t.rows[r];
+    const int k = layout.of_row[r];
+    if (row.kind == Row::Kind::soft && !(row.at_most && c[k] <= 0)) weights[k] = row.weight;
+  }
+  return weights;
+}
+
 Linearisation start_linearisation(const Layout& layout) {
   return {Eigen::VectorXd::Zero(layout.size()), BorderedMatrix(layout.pattern), BorderedMatrix(layout.pattern)};
 }

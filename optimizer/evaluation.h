@@ -42,6 +42,10 @@ std::vector<char> active_rows(const Transcription& transcription, std::span<cons
 Values evaluate(const Transcription& transcription, std::span<const double> x, Workspace& workspace,
                 std::span<const char> active = {});
 
+// The residuals c, one a row, in KKT positions; and of such: the weights of soft rows that ask something, 0 elsewhere.
+Eigen::VectorXd residual_of(const Transcription& transcription, const Layout& layout, const Values& values);
+Eigen::VectorXd soft_weights(const Transcription& transcription, const Layout& layout, const Eigen::VectorXd& c);
+
 // `result` must have been made for this layout.
 Linearisation start_linearisation(const Layout& layout);
 

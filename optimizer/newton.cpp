@@ -45,22 +45,6 @@ Stopwatch::~Stopwatch() { seconds_ += now() - begun_; }
 Newton::Newton(const Transcription& transcription, const Layout& layout)
     : t_(transcription), layout_(layout), kkt_(transcription, layout), limits_(transcription, layout) {}
 
-Eigen::VectorXd Newton::residual_of(const Values& values) const {
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(layout_.size());
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) c[layout_.of_row[r]] = values.residual[r];
-  return c;
-}
-
-Eigen::VectorXd Newton::soft_weights(const Eigen::VectorXd& c) const {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(layout_.size());
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    const Row& row = t_.rows[r];
-    const int k = layout_.of_row[r];
-    if (row.kind == Row::Kind::soft && !(row.at_most && c[k] <= 0)) weights[k] = row.weight;
-  }
-  return weights;
-}
-
 double Newton::filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const {
   double sum = 0;
   for (int k = 0; k < layout_.size(); ++k) {
@@ -101,7 +85,7 @@ void Newton::take_better_multipliers(NewtonState& state, const Eigen::VectorXd& 
 
 // Derivatives, multipliers and measures at state.x.
 void Newton::judge(NewtonState& state) {
-  const Eigen::VectorXd c = residual_of(state.values);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values);
   state.condition = StepResult::not_finite;
   state.measures = {};
   state.measures.sum = filter_sum(c, state.barrier);
@@ -116,7 +100,7 @@ void Newton::judge(NewtonState& state) {
   {
     const Stopwatch watch(state.seconds.evaluate);
     linearise(t_, layout_, state.x, workspace_, linear, state.active);
-    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weights(c).cwiseProduct(c));
+    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weights(t_, layout_, c).cwiseProduct(c));
   }
   for (int k = 0; k < layout_.size(); ++k) {
     if (kkt_.is_row(k)) state.gradient[k] = 0;
@@ -134,7 +118,7 @@ void Newton::judge(NewtonState& state) {
   if (!lambda) return;
   take_better_multipliers(state, pulled, *lambda);
   Eigen::VectorXd of_equations = Eigen::VectorXd::Zero(layout_.size());
-  const Eigen::VectorXd weights = soft_weights(c);
+  const Eigen::VectorXd weights = soft_weights(t_, layout_, c);
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     const int k = layout_.of_row[r];
     if (kkt_.is_equation(k)) of_equations[k] = (*lambda)[k];
@@ -178,7 +162,7 @@ NewtonState Newton::start(std::vector<double> x, const Carried* carried) {
   state.radius = first_radius;
   const double size = std::isfinite(state.values.objective) ? std::abs(state.values.objective) : 0;
   const double unit = std::max(1.0, size) / std::max(1, limits_.count());
-  const Eigen::VectorXd c = residual_of(state.values);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values);
   const auto begin = [&](double mu, double part) {
     auto inside = state.x;
     limits_.push_inside(inside, part);
@@ -234,7 +218,7 @@ void Newton::settle_conditions(NewtonState& state) {
   if (changed.empty()) return;
   state.active = std::move(active);
   state.values = evaluate(t_, state.x, workspace_, state.active);
-  const Barrier fresh = limits_.start(state.x, residual_of(state.values), state.barrier.mu);
+  const Barrier fresh = limits_.start(state.x, residual_of(t_, layout_, state.values), state.barrier.mu);
   for (const int k : changed) {
     state.barrier.slack[k] = fresh.slack[k];
     state.barrier.dual[k] = fresh.dual[k];
@@ -246,7 +230,7 @@ void Newton::settle_conditions(NewtonState& state) {
 void Newton::lower_barrier(NewtonState& state, double tolerance) const {
   if (limits_.none()) return;
   const double unit = std::max(1.0, std::abs(state.values.objective)) / limits_.count();
-  const Eigen::VectorXd c = residual_of(state.values);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values);
   double violation = 0;
   for (int k = 0; k < layout_.size(); ++k) {
     if (kkt_.is_equation(k)) violation = std::max(violation, std::abs(c[k]));
@@ -275,7 +259,7 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
     return begin_restoration(state, state.values.objective + limits_.value(state.x, state.barrier), tolerance);
   }
 
-  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values), weights = soft_weights(t_, layout_, c);
   Eigen::VectorXd right =
       state.linear.gradient + limits_.gradient(state.x, state.barrier) + limits_.right(c, state.barrier);
   Eigen::VectorXd diagonal = limits_.diagonal(state.x, state.barrier);
@@ -298,7 +282,7 @@ StepResult Newton::step(NewtonState& state, double tolerance) {
 }
 
 Newton::Model Newton::model_of(const NewtonState& state, Eigen::VectorXd solution) const {
-  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values), weights = soft_weights(t_, layout_, c);
   Model model;
   model.d = model.multipliers = solution;
   for (int k = 0; k < layout_.size(); ++k) (kkt_.is_row(k) ? model.d : model.multipliers)[k] = 0;

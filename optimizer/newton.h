@@ -113,8 +113,6 @@ class Newton {
   void settle_conditions(NewtonState& state);
   void lower_barrier(NewtonState& state, double tolerance) const;
   Model model_of(const NewtonState& state, Eigen::VectorXd solution) const;
-  Eigen::VectorXd residual_of(const Values& values) const;       // c in KKT positions
-  Eigen::VectorXd soft_weights(const Eigen::VectorXd& c) const;  // w where a soft row asks something
   double filter_sum(const Eigen::VectorXd& c, const Barrier& barrier) const;
   double largest_change(const Eigen::VectorXd& direction) const;
   double most_length(const Eigen::VectorXd& direction) const { return optimizer::most_length(t_, layout_, direction); }

@@ -48,7 +48,7 @@ Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& change, 
   trial.barrier = barrier;
   for (const int u : layout_.free) trial.x[u] += change[layout_.of_unknown[u]];
   trial.values = evaluate(t_, trial.x, workspace_, state.active);
-  const Eigen::VectorXd c = residual_of(trial.values);
+  const Eigen::VectorXd c = residual_of(t_, layout_, trial.values);
   limits_.widen(trial.barrier, c);
   trial.sum = filter_sum(c, trial.barrier);
   trial.merit = trial.values.objective + limits_.value(trial.x, trial.barrier);
@@ -57,7 +57,7 @@ Newton::Trial Newton::try_at(NewtonState& state, const Eigen::VectorXd& change, 
 }
 
 double Newton::lagrangian(const Model& model, const Trial& trial) const {
-  return trial.merit + model.multipliers.dot(residual_of(trial.values) + trial.barrier.slack);
+  return trial.merit + model.multipliers.dot(residual_of(t_, layout_, trial.values) + trial.barrier.slack);
 }
 
 // Whether the Lagrangian changed as predicted, to the given fraction.
@@ -103,7 +103,7 @@ std::optional<Newton::Trial> Newton::corrected(NewtonState& state, const Model& 
                                                double length) {
   if (!trial.finite) return std::nullopt;
   const auto gap = [&](const Values& values, const Barrier& barrier) {
-    Eigen::VectorXd g = residual_of(values) + barrier.slack;
+    Eigen::VectorXd g = residual_of(t_, layout_, values) + barrier.slack;
     for (std::size_t r = 0; r < t_.rows.size(); ++r) {
       if (t_.rows[r].kind == Row::Kind::soft) g[layout_.of_row[r]] = 0;
     }
@@ -289,8 +289,8 @@ StepResult Newton::restore(NewtonState& state, double tolerance) {
       state.curved = -slope < large_residual * squares && std::abs(missed - bend) < std::abs(missed);
       const double error = std::min(std::abs(missed - bend), std::abs(missed));
       if (error <= good_model_error * (squares - remaining) / 2) state.radius *= radius_growth;
-      trial.barrier = limits_.start(trial.x, residual_of(trial.values), state.barrier.mu);
-      trial.sum = filter_sum(residual_of(trial.values), trial.barrier);
+      trial.barrier = limits_.start(trial.x, residual_of(t_, layout_, trial.values), state.barrier.mu);
+      trial.sum = filter_sum(residual_of(t_, layout_, trial.values), trial.barrier);
       trial.merit = trial.values.objective + limits_.value(trial.x, trial.barrier);
       state.damping = std::max(state.damping / 10, first_damping);
       state.shift_used = 0;

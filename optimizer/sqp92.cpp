@@ -35,21 +35,6 @@ Sqp92::Sqp92(const Transcription& transcription, const Layout& layout, bool line
   refuse_limits(t_, "sqp92");
 }
 
-Eigen::VectorXd Sqp92::residual_of(const Values& values) const {
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(layout_.size());
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) c[layout_.of_row[r]] = values.residual[r];
-  return c;
-}
-
-Eigen::VectorXd Sqp92::soft_weights(const Eigen::VectorXd& c) const {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(layout_.size());
-  for (std::size_t r = 0; r < t_.rows.size(); ++r) {
-    const int k = layout_.of_row[r];
-    if (!is_hard(r) && !(t_.rows[r].at_most && c[k] <= 0)) weights[k] = t_.rows[r].weight;
-  }
-  return weights;
-}
-
 Sqp92State Sqp92::start(std::vector<double> x) {
   settle_functionals(t_, x, workspace_);
   const std::vector<double> zero(t_.rows.size(), 0.0);
@@ -74,7 +59,7 @@ Sqp92State Sqp92::resume(std::vector<double> x, std::vector<double> multipliers,
 // Derivatives and measures at state.x.
 void Sqp92::judge(Sqp92State& state) {
   const Stopwatch watch(state.seconds.evaluate);
-  const Eigen::VectorXd c = residual_of(state.values);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values);
   state.condition = StepResult::not_finite;
   state.measures = {};
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
@@ -82,7 +67,7 @@ void Sqp92::judge(Sqp92State& state) {
   }
   if (!state.values.finite) return;
   linearise(t_, layout_, state.x, workspace_, state.linear);
-  const Eigen::VectorXd of_soft = soft_weights(c).cwiseProduct(c);
+  const Eigen::VectorXd of_soft = soft_weights(t_, layout_, c).cwiseProduct(c);
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(layout_.size());
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     if (is_hard(r)) multipliers[layout_.of_row[r]] = state.multipliers[r];
@@ -102,7 +87,7 @@ void Sqp92::judge(Sqp92State& state) {
 
 std::optional<Sqp92::Direction> Sqp92::factored(Sqp92State& state) {
   const Stopwatch watch(state.seconds.factor);
-  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values), weights = soft_weights(t_, layout_, c);
   Eigen::VectorXd right = state.linear.gradient + c, diagonal = Eigen::VectorXd::Zero(layout_.size());
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     if (is_hard(r)) continue;
@@ -140,7 +125,7 @@ Eigen::VectorXd Sqp92::scales(const Sqp92State& state, double mean) const {
 
 std::optional<Sqp92::Direction> Sqp92::conjugate(Sqp92State& state) const {
   const Stopwatch watch(state.seconds.factor);
-  const Eigen::VectorXd c = residual_of(state.values), weights = soft_weights(c);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values), weights = soft_weights(t_, layout_, c);
   Eigen::VectorXd unknown = Eigen::VectorXd::Zero(layout_.size());  // 1 there
   double mean = 0;
   for (const int u : layout_.free) {
@@ -178,7 +163,7 @@ StepResult Sqp92::step(Sqp92State& state, double tolerance) {
   if (!direction) return StepResult::singular;
 
   const Eigen::VectorXd& d = direction->d;
-  const Eigen::VectorXd c = residual_of(state.values), slope = multiply(state.linear.jacobian, d);
+  const Eigen::VectorXd c = residual_of(t_, layout_, state.values), slope = multiply(state.linear.jacobian, d);
   // w = max(|l+|, (w + |l+|) / 2), row by row.
   const Eigen::VectorXd size = direction->multipliers.cwiseAbs();
   state.merit_weights = size.cwiseMax((state.merit_weights + size) / 2);
@@ -195,7 +180,7 @@ StepResult Sqp92::step(Sqp92State& state, double tolerance) {
       const Stopwatch watch(state.seconds.evaluate);
       values = evaluate(t_, x, workspace_);
     }
-    const double there = values.objective + violation(residual_of(values));
+    const double there = values.objective + violation(residual_of(t_, layout_, values));
     if (!values.finite || !(there <= merit + sufficient_decrease * length * promised + noise)) continue;
     state.x = std::move(x);
     state.values = std::move(values);

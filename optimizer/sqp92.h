@@ -50,8 +50,6 @@ class Sqp92 {
   std::optional<Direction> factored(Sqp92State& state);
   std::optional<Direction> conjugate(Sqp92State& state) const;
   Eigen::VectorXd scales(const Sqp92State& state, double mean) const;
-  Eigen::VectorXd residual_of(const Values& values) const;       // in KKT positions
-  Eigen::VectorXd soft_weights(const Eigen::VectorXd& c) const;  // of soft rows that ask something
   bool is_hard(std::size_t row) const { return t_.rows[row].kind != Row::Kind::soft; }
 
   const Transcription& t_;
