@@ -62,7 +62,6 @@ class Transcriber {
 
   Transcription run() {
     out_.constants = evaluate_constants(problem_);
-    for (const auto& [hash, program] : problem_.programs) out_.evaluators.emplace(hash, Evaluator(program));
     add_functionals();
     add_objective();
     for (int k = 0; k < static_cast<int>(problem_.constraints.size()); ++k) add_constraint(k);
@@ -80,10 +79,12 @@ class Transcriber {
     return evaluate(problem_, out_.constants, quantity, what);
   }
 
-  Batch start_batch(const std::string& hash) const {
+  Batch start_batch(const std::string& hash) {
     Batch batch;
     batch.program = &problem_.programs.at(hash);
-    batch.evaluator = &out_.evaluators.at(hash);
+    auto found = out_.evaluators.find(hash);
+    if (found == out_.evaluators.end()) found = out_.evaluators.emplace(hash, Evaluator(*batch.program)).first;
+    batch.evaluator = &found->second;
     return batch;
   }
 

@@ -108,7 +108,7 @@ struct Transcription {
   std::vector<Row> rows;
   std::vector<Batch> batches;
   std::vector<Conditional> conditionals;
-  std::map<std::string, Evaluator> evaluators;  // by program
+  std::map<std::string, Evaluator> evaluators;  // of the programs in batches
 
   int dofs() const { return static_cast<int>(problem->dofs.size()); }
   int functionals() const { return static_cast<int>(problem->functionals.size()); }
