@@ -198,31 +198,21 @@ void Session::refine_where_needed(double tolerance) {
   take_over(std::move(next), setting_, &result);
 }
 
+template <class Change, class... Arguments>
+void Session::change_curves(const Change& change, const Arguments&... arguments) {
+  Curves changed = curves();
+  change(now_->problem, now_->whole.constants, now_->freedom, arguments..., changed);
+  reshape(changed);
+}
+
 void Session::act(const Shake& action, const Watch&) {
-  Curves changed = curves();
-  const int seed = action.seed.value_or(shakes_ + 1);
-  shake(now_->problem, now_->whole.constants, now_->freedom, action, seed, changed);
+  change_curves(shake, action, action.seed.value_or(shakes_ + 1));
   if (!action.seed) ++shakes_;
-  reshape(changed);
 }
 
-void Session::act(const Smooth& action, const Watch&) {
-  Curves changed = curves();
-  smooth(now_->problem, now_->whole.constants, now_->freedom, action, changed);
-  reshape(changed);
-}
-
-void Session::act(const PullKeys& action, const Watch&) {
-  Curves changed = curves();
-  pull(now_->problem, now_->whole.constants, now_->freedom, action, changed);
-  reshape(changed);
-}
-
-void Session::act(const Control& action, const Watch&) {
-  Curves changed = curves();
-  control(now_->problem, now_->whole.constants, now_->freedom, action, changed);
-  reshape(changed);
-}
+void Session::act(const Smooth& action, const Watch&) { change_curves(smooth, action); }
+void Session::act(const PullKeys& action, const Watch&) { change_curves(pull, action); }
+void Session::act(const Control& action, const Watch&) { change_curves(control, action); }
 
 template <class Edit>
 requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }

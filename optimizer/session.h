@@ -136,6 +136,8 @@ class Session {
   void restart(std::vector<double> x, const Carried* carried = nullptr);
   void take_over(Edited edited, const Setting& setting, const Curves* curves = nullptr);
   Curves curves() const;
+  template <class Change, class... Arguments>
+  void change_curves(const Change& change, const Arguments&... arguments);  // by a function of reshape.h
   void reshape(const Curves& curves);
   void refine_where_needed(double tolerance);
   void resume(const Motion& motion);
