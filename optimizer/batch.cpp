@@ -1,7 +1,11 @@
 #include "optimizer/batch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+
+#include "common/diagnostic.h"
 
 namespace spacetime::optimizer {
 namespace {
@@ -90,6 +94,32 @@ void add_chunks(Batch& batch) {
 int index_of(const Problem& problem, const std::string& dof) {
   const auto found = std::ranges::find(problem.dofs, dof, &Dof::name);
   return static_cast<int>(found - problem.dofs.begin());
+}
+
+int require_dof(const Problem& problem, const std::string& name) {
+  const int dof = index_of(problem, name);
+  if (dof == static_cast<int>(problem.dofs.size())) {
+    throw InputError(fmt::format("there is no degree of freedom '{}'", name));
+  }
+  return dof;
+}
+
+std::vector<char> named_dofs(const Problem& problem, const DofNames& names) {
+  std::vector<char> named(problem.dofs.size(), names.empty());
+  for (const std::string& name : names) named[require_dof(problem, name)] = 1;
+  return named;
+}
+
+Span span_of(const Problem& problem, const Constants& constants, const std::optional<Interval>& interval,
+             const std::string& what) {
+  if (!interval) return {problem.start, problem.end};
+  const double a = evaluate(problem, constants, interval->from, what);
+  const double b = evaluate(problem, constants, interval->to, what);
+  if (!(a < b) || b <= problem.start || a >= problem.end) {
+    throw InputError(fmt::format("the {} [{}, {}] does not meet the animation's time, [{}, {}]", what, a, b,
+                                 problem.start, problem.end));
+  }
+  return {a, b};
 }
 
 int border_index_of(const Problem& problem, const Input& input) {

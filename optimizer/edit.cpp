@@ -6,6 +6,7 @@
 
 #include "common/constants.h"
 #include "common/diagnostic.h"
+#include "optimizer/batch.h"
 
 namespace spacetime::optimizer {
 namespace {
@@ -94,11 +95,9 @@ void apply(Edited& edited, const Rescope& scope) {
 }
 
 void apply(Edited& edited, const Bound& bound) {
-  const auto found = std::ranges::find(edited.problem.dofs, bound.dof, &Dof::name);
-  if (found == edited.problem.dofs.end())
-    throw InputError(fmt::format("there is no degree of freedom '{}'", bound.dof));
-  found->lower = bound.lower;
-  found->upper = bound.upper;
+  Dof& dof = edited.problem.dofs[require_dof(edited.problem, bound.dof)];
+  dof.lower = bound.lower;
+  dof.upper = bound.upper;
 }
 
 Problem in_effect(const Edited& edited, int action) {

@@ -23,19 +23,8 @@ Freedom within(const Problem& problem, const Constants& constants, const Window&
   Freedom freedom = all_of(problem);
   if (!window.interval && window.dofs.empty()) return freedom;
   freedom.whole = false;
-  const auto bound = [&](const Quantity& q) { return evaluate(problem, constants, q, "window"); };
-  const double a = window.interval ? bound(window.interval->from) : problem.start;
-  const double b = window.interval ? bound(window.interval->to) : problem.end;
-  if (!(a < b) || b <= problem.start || a >= problem.end) {
-    throw InputError(fmt::format("the window [{}, {}] does not meet the animation's time, [{}, {}]", a, b,
-                                 problem.start, problem.end));
-  }
-  std::vector<char> named(problem.dofs.size(), window.dofs.empty());
-  for (const std::string& name : window.dofs) {
-    const auto dof = static_cast<std::size_t>(index_of(problem, name));
-    if (dof == named.size()) throw InputError(fmt::format("there is no degree of freedom '{}'", name));
-    named[dof] = 1;
-  }
+  const auto [a, b] = span_of(problem, constants, window.interval, "window");
+  const auto named = named_dofs(problem, window.dofs);
   const double margin = same_time * (problem.end - problem.start);
   bool any = false;
   for (std::size_t k = 0; k < named.size(); ++k) {

@@ -22,28 +22,6 @@ constexpr double shortest_span = 1e-9;
 // A problem of more coefficients is a mistake, not a motion.
 constexpr int most_coefficients = 1 << 20;
 
-std::pair<double, double> interval_of(const Problem& problem, const Constants& constants, const Refine& action) {
-  if (!action.interval) return {problem.start, problem.end};
-  const double a = evaluate(problem, constants, action.interval->from, "refine");
-  const double b = evaluate(problem, constants, action.interval->to, "refine");
-  if (!(a < b) || b <= problem.start || a >= problem.end) {
-    throw InputError(fmt::format("the interval [{}, {}] does not meet the animation's time, [{}, {}]", a, b,
-                                 problem.start, problem.end));
-  }
-  return {a, b};
-}
-
-// Which degrees of freedom are meant.
-std::vector<char> named_by(const Problem& problem, const Refine& action) {
-  std::vector<char> named(problem.dofs.size(), action.dofs.empty());
-  for (const std::string& name : action.dofs) {
-    const auto dof = static_cast<std::size_t>(index_of(problem, name));
-    if (dof == named.size()) throw InputError(fmt::format("there is no degree of freedom '{}'", name));
-    named[dof] = 1;
-  }
-  return named;
-}
-
 // How many spans more there are where one is halved `times` times, each time the parts that overlap [a, b].
 double halves(double from, double to, double a, double b, int times) {
   if (!(from < b && to > a)) return 0;
@@ -87,8 +65,8 @@ void halve(Basis& basis, const std::vector<double>& spans, std::vector<double>& 
 }
 
 double refined_coefficients(const Problem& problem, const Constants& constants, const Refine& action) {
-  const auto [a, b] = interval_of(problem, constants, action);
-  const auto named = named_by(problem, action);
+  const auto [a, b] = span_of(problem, constants, action.interval, "interval");
+  const auto named = named_dofs(problem, action.dofs);
   double coefficients = 0;
   for (std::size_t dof = 0; dof < named.size(); ++dof) {
     const Basis& basis = problem.dofs[dof].basis;
@@ -103,8 +81,8 @@ double refined_coefficients(const Problem& problem, const Constants& constants, 
 }
 
 void refine(Problem& problem, const Constants& constants, const Refine& action, Curves& curves) {
-  const auto [a, b] = interval_of(problem, constants, action);
-  const auto named = named_by(problem, action);
+  const auto [a, b] = span_of(problem, constants, action.interval, "interval");
+  const auto named = named_dofs(problem, action.dofs);
   if (refined_coefficients(problem, constants, action) > most_coefficients) {
     throw InputError(fmt::format("more than {} coefficients: refine fewer times", most_coefficients));
   }

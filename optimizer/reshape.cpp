@@ -20,14 +20,6 @@ namespace {
 constexpr int shake_spans = 8;
 constexpr double key_reach = 1.0 / 16;  // r of a key's bump, of the animation's time
 
-int require_dof(const Problem& problem, const std::string& name) {
-  const int dof = index_of(problem, name);
-  if (dof == static_cast<int>(problem.dofs.size())) {
-    throw InputError(fmt::format("there is no degree of freedom '{}'", name));
-  }
-  return dof;
-}
-
 // The degrees of freedom of an action that have something free.
 std::vector<int> meant(const Problem& problem, const Freedom& freedom, const DofNames& names) {
   std::vector<int> dofs;
