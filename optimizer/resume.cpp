@@ -47,6 +47,14 @@ Eigen::VectorXd put(const std::vector<double>& numbers, const std::vector<int>& 
 
 }  // namespace
 
+void refuse_checkpoint(int unknowns_of_bfgs) {
+  if (unknowns_of_bfgs <= most_bfgs_checkpoint) return;
+  throw InputError(
+      fmt::format("a checkpoint of the method 'bfgs' has its dense matrix, and can be made of at most {} unknowns; "
+                  "there are {}",
+                  most_bfgs_checkpoint, unknowns_of_bfgs));
+}
+
 void require_size(std::string_view path, std::size_t found, std::size_t expected) {
   if (found == expected) return;
   throw CheckpointError(std::string(path),

@@ -17,6 +17,9 @@ Checkpoint::Sqp92 kept(const Layout& layout, const Sqp92State& state);
 NewtonState brought_back(const Transcription& transcription, const Layout& layout, const Checkpoint::Newton& kept,
                          std::vector<double> x);
 
+// Throws InputError where the method 'bfgs' has too many unknowns for a checkpoint.
+void refuse_checkpoint(int unknowns_of_bfgs);
+
 // Throws CheckpointError where what stands at that path of the motion's document has another size.
 void require_size(std::string_view path, std::size_t found, std::size_t expected);
 

@@ -69,6 +69,7 @@ Motion run(const Problem& problem, const RunOptions& options) {
   bool interrupted = false, ended = false;  // or an action was refused
   Watch watch;
   watch.threads = options.threads;
+  watch.checkpoint = options.checkpoint;
   watch.progress = [&](const IterationRecord& record) {
     if (options.progress) options.progress(record);
     if (options.record) records.push_back(record);

@@ -362,12 +362,7 @@ Checkpoint Session::checkpoint() const {
   if (const auto* state = std::get_if<Sqp92State>(&other_)) at.sqp92 = kept(now_->layout, *state);
   if (const auto* state = std::get_if<BfgsState>(&other_)) {
     const Eigen::MatrixXd& inverse = state->inverse;
-    if (inverse.rows() > most_bfgs_checkpoint) {
-      throw InputError(
-          fmt::format("a checkpoint of the method 'bfgs' has its dense matrix, and can be made of at most "
-                      "{} unknowns; there are {}",
-                      most_bfgs_checkpoint, inverse.rows()));
-    }
+    refuse_checkpoint(static_cast<int>(inverse.rows()));
     auto& rows = at.bfgs.emplace().inverse;
     for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) rows.push_back(inverse(i, j));

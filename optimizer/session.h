@@ -28,6 +28,7 @@ struct Watch {
   int threads = 0;                                                // for many starts; as many as there are cores where 0
   std::function<void(const std::function<void()>& work)> around;  // called in each of those threads; see Crew
   std::function<void(const IterationRecord&)> progress;           // after each iteration
+  bool checkpoint = false;  // there is to be a checkpoint at the end: a method that would have none is refused
   // Asked before each iteration; false ends the action, and the motion reached is kept.  It may perform edits on the
   // session (is_edit), which then take effect with the iteration that follows; a solve from many starts ends.
   std::function<bool()> go_on;

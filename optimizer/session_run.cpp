@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/diagnostic.h"
+#include "optimizer/resume.h"
 #include "optimizer/session.h"
 #include "optimizer/starts.h"
 
@@ -32,6 +33,7 @@ void Session::act(const Solve& solve, const Watch& watch) {
       return iterate_by<Sqp92State>([&] { return Sqp92(now_->t(), now_->layout, solve.linear_cg); }, limit,
                                     solve.tolerance, watch);
     case Solve::Method::bfgs:
+      if (watch.checkpoint) refuse_checkpoint(Bfgs(now_->t(), now_->layout).size());
       return iterate_by<BfgsState>([&] { return Bfgs(now_->t(), now_->layout); }, limit, solve.tolerance, watch);
   }
 }

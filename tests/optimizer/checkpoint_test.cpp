@@ -228,5 +228,24 @@ TEST(Checkpoint, OfASessionIsNoneOfARun) {
   EXPECT_THROW(run(problem, options), CheckpointError);
 }
 
+// A checkpoint that cannot be is refused before anything is iterated for it.
+TEST(Checkpoint, OfManyUnknownsOfBfgsIsRefusedAtOnce) {
+  const Problem problem = problem_of(
+      "time [0, 1]\ntrajectory bspline spans 2000\ndof x\nminimize integral(x''^2 + x)\n"
+      "solve method bfgs iterations 1\n");
+  RunOptions options;
+  options.checkpoint = true;
+  int lines = 0;
+  options.progress = [&](const IterationRecord&) { ++lines; };
+  try {
+    run(problem, options);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("at most 2000 unknowns; there are 2003"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(lines, 1);  // the start
+}
+
 }  // namespace
 }  // namespace spacetime::optimizer
