@@ -84,6 +84,14 @@ bool performed(Edited& edited, const Action& action) {
   }
 }
 
+Curves curves_of(const Transcription& whole, const std::vector<double>& x) {
+  Curves curves;
+  for (int dof = 0; dof < whole.dofs(); ++dof) {
+    curves.emplace_back(x.begin() + whole.first[dof], x.begin() + whole.first[dof + 1]);
+  }
+  return curves;
+}
+
 // Whether two problems differ in nothing that iterations depend on.
 bool same_to_iterate(const Problem& a, const Problem& b) {
   return a.start == b.start && a.end == b.end && a.constants == b.constants && a.parameters == b.parameters &&
@@ -115,6 +123,22 @@ Session::Numerics::Numerics(Problem p, const Setting& setting)
     if (limit == setting.damping.end()) continue;
     std::fill_n(iterated.most_change.begin() + iterated.first[dof], iterated.first[dof + 1] - iterated.first[dof],
                 limit->second);
+  }
+}
+
+std::vector<double> Session::Numerics::open(std::vector<double>& x) {
+  if (!part) return x;
+  Workspace workspace;
+  settle_functionals(whole, x, workspace);
+  settle_elsewhere(whole, *part, x);
+  return taken(whole, *part, x);
+}
+
+void Session::Numerics::close(const std::vector<double>& own, std::vector<double>& x) const {
+  if (part) {
+    put_back(whole, *part, own, x);
+  } else {
+    x = own;
   }
 }
 
@@ -173,20 +197,22 @@ void Session::act(const Refine& action, const Watch&) {
 void Session::refine_where_needed(double tolerance) {
   if (!(tolerance > 0))
     throw InputError(fmt::format("the tolerance of `refine auto`, {}, must be positive", tolerance));
-  Session finer = Session(edited_.problem);
-  finer.edited_ = edited_;
-  finer.declared_ = declared_;
+  Edited halved = edited_;
   Curves before = curves();
-  refine(finer.edited_.problem, now_->whole.constants, Refine{}, before);
-  finer.take_over(finer.edited_, setting_, &before);
-  finer.now_->newton.step(finer.state_, std::numeric_limits<double>::min());
-  const Curves after = finer.curves();
+  refine(halved.problem, now_->whole.constants, Refine{}, before);
+  Numerics finer(in_effect(halved, declared_), setting_);
+  auto x = unknowns(before);
+  const Carried dual = carried(now_->t(), now_->layout, state_, finer.t());
+  NewtonState state = finer.newton.start(finer.open(x), &dual);
+  finer.newton.step(state, std::numeric_limits<double>::min());
+  finer.close(state.x, x);
+  const Curves after = curves_of(finer.whole, x);
 
   Edited next = edited_;
   Curves result = curves();
   for (std::size_t dof = 0; dof < result.size(); ++dof) {
     Basis& basis = next.problem.dofs[dof].basis;
-    const auto differ = spans_that_differ(finer.edited_.problem.dofs[dof].basis, before[dof], after[dof], tolerance);
+    const auto differ = spans_that_differ(halved.problem.dofs[dof].basis, before[dof], after[dof], tolerance);
     std::vector<double> spans;
     const auto knots = breakpoints(basis);
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
@@ -288,13 +314,7 @@ void Session::set_motion(const Motion& motion) {
 // cannot be is refused here, before anything is lost.
 void Session::take_over(Edited edited, const Setting& setting, const Curves* curves) {
   auto numerics = std::make_shared<Numerics>(in_effect(edited, declared_), setting);
-  auto x = settled();
-  if (curves) {
-    std::vector<double> other;
-    for (const auto& curve : *curves) other.insert(other.end(), curve.begin(), curve.end());
-    other.insert(other.end(), x.begin() + now_->whole.first_functional(), x.end());
-    x = std::move(other);
-  }
+  auto x = curves ? unknowns(*curves) : settled();
   const Carried dual = carried(now_->t(), now_->layout, state_, numerics->t());
   edited_ = std::move(edited);
   setting_ = setting;
@@ -302,11 +322,7 @@ void Session::take_over(Edited edited, const Setting& setting, const Curves* cur
   restart(std::move(x), &dual);
 }
 
-Curves Session::curves() const {
-  Curves result;
-  for (Trajectory& trajectory : trajectories()) result.push_back(std::move(trajectory.coefficients));
-  return result;
-}
+Curves Session::curves() const { return curves_of(now_->whole, unknowns()); }
 
 void Session::reshape(const Curves& curves) {
   auto x = unknowns();
@@ -324,17 +340,13 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
   minima_.clear();
   objective_outside_ = 0;
   x_ = std::move(x);
+  auto own = now_->open(x_);
   if (now_->part) {
     Workspace workspace;
-    settle_functionals(now_->whole, x_, workspace);
-    settle_elsewhere(now_->whole, *now_->part, x_);
-    auto own = taken(now_->whole, *now_->part, x_);
     objective_outside_ =
         evaluate(now_->whole, x_, workspace).objective - evaluate(*now_->part, own, workspace).objective;
-    state_ = now_->newton.start(std::move(own), carried);
-  } else {
-    state_ = now_->newton.start(x_, carried);
   }
+  state_ = now_->newton.start(std::move(own), carried);
   state_.iterations = iterations;
   state_.seconds.evaluate += seconds.evaluate;
   state_.seconds.factor += seconds.factor;
@@ -502,9 +514,17 @@ std::vector<Trajectory> Session::trajectories() const {
 }
 
 std::vector<double> Session::unknowns() const {
-  if (!now_->part) return state_.x;
   auto x = x_;
-  put_back(now_->whole, *now_->part, state_.x, x);
+  now_->close(state_.x, x);
+  return x;
+}
+
+// The present unknowns with other curves, of as many coefficients as these have.
+std::vector<double> Session::unknowns(const Curves& curves) const {
+  const auto present = settled();
+  std::vector<double> x;
+  for (const auto& curve : curves) x.insert(x.end(), curve.begin(), curve.end());
+  x.insert(x.end(), present.begin() + now_->whole.first_functional(), present.end());
   return x;
 }
 

@@ -108,6 +108,9 @@ class Session {
     Numerics& operator=(const Numerics&) = delete;
 
     const Transcription& t() const { return part ? *part : whole; }  // what is iterated
+    // The unknowns of that, out of all; what a window leaves as it is is settled, in x too.  And back.
+    std::vector<double> open(std::vector<double>& x);
+    void close(const std::vector<double>& own, std::vector<double>& x) const;
   };
   using Clock = std::chrono::steady_clock;
 
@@ -148,6 +151,7 @@ class Session {
   std::string standing() const;
   bool foreign() const { return other_.index() != 0; }
   std::vector<double> unknowns() const;
+  std::vector<double> unknowns(const Curves& curves) const;
   std::vector<double> settled() const;
   std::string standing_elsewhere(double tolerance) const;
   double elapsed() const;
