@@ -1,5 +1,6 @@
 #include "common/files.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,6 +31,16 @@ std::string read_stream(std::istream& in, const std::string& name) {
 void write_stream(std::ostream& out, std::string_view text, const std::string& name) {
   out << text << std::flush;
   if (!out) throw InputError("cannot write to " + name);
+}
+
+bool written_through(const std::string& file) {
+  const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (opened < 0) return false;
+  const bool done = ::fsync(opened) == 0;
+  const int why = errno;
+  ::close(opened);
+  errno = why;
+  return done;
 }
 
 }  // namespace
@@ -65,6 +76,8 @@ void write_text(const std::string& file, std::string_view text) {
   out << text << std::flush;
   out.close();
   if (out && fs::exists(there)) fs::permissions(beside, there.permissions(), error);
+  // Its content first, then its name: a machine that fails in between has the old one or the new one, whole.
+  if (out && !error && !written_through(beside)) error = {errno, std::generic_category()};
   if (out && !error) fs::rename(beside, target, error);
   if (!out || error) {
     const std::string why = error ? error.message() : reason();

@@ -30,11 +30,26 @@ std::optional<std::pair<long, long>> changed(const std::string& file) {
   return std::pair<long, long>(status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
+// A program that is being started has what this one has open, and so its locks, until it runs itself: a lock is tried
+// for so long before another window is blamed.
+constexpr std::chrono::milliseconds lock_patience{1000}, between_tries{5};
+
+bool lock(int file, std::chrono::milliseconds patience) {
+  const auto until = std::chrono::steady_clock::now() + patience;
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EINTR && errno != EWOULDBLOCK) return false;
+    if (std::chrono::steady_clock::now() >= until) return false;
+    std::this_thread::sleep_for(between_tries);
+  }
+  return true;
+}
+
 // A journal held so that no other window takes it.
 class Held {
  public:
-  explicit Held(const std::string& file) : file_(::open(file.c_str(), O_RDWR | O_CLOEXEC)) {
-    if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) == 0) return;
+  explicit Held(const std::string& file, std::chrono::milliseconds patience = lock_patience)
+      : file_(::open(file.c_str(), O_RDWR | O_CLOEXEC)) {
+    if (file_ >= 0 && lock(file_, patience)) return;
     if (file_ >= 0) ::close(file_);
     file_ = -1;
   }
@@ -49,6 +64,14 @@ class Held {
   int file_;
 };
 
+// So that a file that was made in it is found after the machine has failed, too.
+void sync_folder(const std::string& folder) {
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  ::fsync(opened);
+  ::close(opened);
+}
+
 SettingsRead read_settings(const std::string& folder) {
   SettingsRead settings;
   const std::string file = settings_file(folder);
@@ -61,24 +84,35 @@ SettingsRead read_settings(const std::string& folder) {
   return settings;
 }
 
-// Sessions that ended without being saved.  Journals of others, of which nothing is left to say, go.
-std::vector<LeftBehind> left_behind(const std::string& folder) {
+// What a window that is gone left of its session.
+std::optional<Restored> read_left(const std::string& file) {
+  const std::string text = read_text(file);
+  if (text.find('\n') == std::string::npos) return std::nullopt;  // not even its beginning was written
+  return read_journal(text);
+}
+
+// Sessions that ended without being saved.  Journals of which nothing is left to say go; those that cannot be read stay
+// and are told of: a newer program, or a disk that is well again, may read them.
+std::vector<LeftBehind> left_behind(const std::string& folder, const std::function<void(Event)>& post) {
   std::vector<LeftBehind> left;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().string();
     if (!file.ends_with(journal_extension)) continue;
-    const Held held(file);
+    const Held held(file, std::chrono::milliseconds(0));  // another window's is no business of this one
     if (!held) continue;
-    bool wanted = false;
     try {
-      const Restored restored = read_journal(read_text(file));
-      wanted = unsaved(restored);
-      if (wanted) left.push_back({file, restored.file});
-    } catch (const InputError&) {
-      wanted = false;  // not even its beginning was written
+      const auto restored = read_left(file);
+      if (restored && unsaved(*restored)) {
+        left.push_back({file, restored->file});
+        continue;
+      }
+    } catch (const std::exception& error) {
+      post(FileFailed{file,
+                      "A session that was not saved cannot be read and is kept as '" + file + "': " + error.what()});
+      continue;
     }
     std::error_code error;
-    if (!wanted) fs::remove(entry.path(), error);
+    fs::remove(entry.path(), error);
   }
   std::ranges::sort(left, {}, &LeftBehind::journal);
   return left;
@@ -145,7 +179,7 @@ void Disk::begin() {
   try {
     fs::create_directories(folder_);
     post_(read_settings(folder_));
-    post_(SessionsFound{left_behind(folder_)});
+    post_(SessionsFound{left_behind(folder_, post_)});
   } catch (const std::exception& error) {
     // Without settings and journals one can still work.
     post_(FileFailed{folder_, "What is kept between sessions cannot be read: " + std::string(error.what())});
@@ -192,13 +226,24 @@ void Disk::act(const WatchFile& effect) {
 void Disk::act(const JournalBegin&) {
   act(JournalEnd{true});
   if (folder_.empty()) return;
-  // One's own, whatever sessions there were before.
-  do {
+  // One's own, whatever sessions there were before.  Until it is locked, a window that starts may take it for an empty
+  // one and remove it.
+  while (journal_ < 0) {
     journal_file_ =
         folder_ + "/" + std::to_string(::getpid()) + "-" + std::to_string(++journals_) + std::string(journal_extension);
     journal_ = ::open(journal_file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0600);
-  } while (journal_ < 0 && errno == EEXIST);
-  if (journal_ >= 0) ::flock(journal_, LOCK_EX | LOCK_NB);
+    if (journal_ < 0 && errno == EEXIST) continue;
+    if (journal_ < 0 || !lock(journal_, lock_patience)) return lose_journal();
+    if (changed(journal_file_)) return sync_folder(folder_);
+    ::close(journal_);
+    journal_ = -1;
+  }
+}
+
+void Disk::lose_journal() {
+  if (journal_ >= 0) ::close(journal_);
+  journal_ = -1;
+  post_(FileFailed{journal_file_, "The journal of this session cannot be written: save often."});
 }
 
 void Disk::act(const JournalLine& effect) {
@@ -212,10 +257,7 @@ void Disk::act(const JournalLine& effect) {
     done += static_cast<std::size_t>(wrote);
   }
   if (done == line.size() && ::fdatasync(journal_) == 0) return;
-  // Half a line would end what can be read: the journal ends here.
-  ::close(journal_);
-  journal_ = -1;
-  post_(FileFailed{journal_file_, "The journal of this session cannot be written: save often."});
+  lose_journal();  // half a line ends what can be read
 }
 
 void Disk::act(const JournalEnd& effect) {
@@ -226,6 +268,7 @@ void Disk::act(const JournalEnd& effect) {
 }
 
 void Disk::act(const JournalDrop& effect) {
+  if (effect.continued && journal_ < 0) return;
   const Held held(effect.journal);
   if (held && effect.journal.ends_with(journal_extension)) ::unlink(effect.journal.c_str());
 }

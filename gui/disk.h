@@ -36,6 +36,7 @@ class Disk {
   void run();
   void begin();
   void look_at_watched();
+  void lose_journal();  // it cannot be written any more
   void act(const ReadFile& effect);
   void act(const WriteFile& effect);
   void act(const WatchFile& effect);

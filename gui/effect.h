@@ -51,6 +51,7 @@ struct JournalEnd {
 };
 struct JournalDrop {  // of a session that ended
   std::string journal;
+  bool continued = false;  // only where what it held stands in this session's journal now
 };
 struct MakeFilm {  // frames/%04d.png, a .mp4, or one .png with so many poses
   std::string file;

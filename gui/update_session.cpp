@@ -202,12 +202,12 @@ void apply(State& state, const Restored& event, Effects& effects) {
     if (entry.checkpoint) effects.push_back(JournalLine{journal_checkpoint(entry)});
   }
   effects.push_back(JournalLine{journal_present(state.present)});
-  effects.push_back(JournalDrop{event.journal});
+  effects.push_back(JournalDrop{event.journal, true});
 }
 
 void apply(State& state, const DropSession& event, Effects& effects) {
   std::erase_if(state.left, [&](const LeftBehind& one) { return one.journal == event.journal; });
-  effects.push_back(JournalDrop{event.journal});
+  effects.push_back(JournalDrop{event.journal, false});
 }
 
 void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& effects) {
