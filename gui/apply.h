@@ -43,6 +43,7 @@ void apply(State& state, const RunScript& event, Effects& effects);
 void begin_task(State& state, Effects& effects);
 void compiled_task(State& state, const Compiled& event, Effects& effects);
 void compiled_base(State& state, const Compiled& event);
+void drop_acts(State& state, Effects& effects);                     // those that wait and the one that has its turn
 void performed(State& state, const Done& event, Effects& effects);  // a part of the task
 void refuse_task(State& state, const std::string& why, Effects& effects);
 void finish_task(State& state, Effects& effects);

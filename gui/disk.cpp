@@ -30,6 +30,9 @@ std::optional<std::pair<long, long>> changed(const std::string& file) {
   return std::pair<long, long>(status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
 }
 
+// From the root, so that it names the same file for a window that is started elsewhere.
+std::string whole_name(const std::string& file) { return fs::absolute(file).lexically_normal().string(); }
+
 // A program that is being started has what this one has open, and so its locks, until it runs itself: a lock is tried
 // for so long before another window is blamed.
 constexpr std::chrono::milliseconds lock_patience{1000}, between_tries{5};
@@ -107,8 +110,8 @@ std::vector<LeftBehind> left_behind(const std::string& folder, const std::functi
         continue;
       }
     } catch (const std::exception& error) {
-      post(FileFailed{file,
-                      "A session that was not saved cannot be read and is kept as '" + file + "': " + error.what()});
+      post(
+          FileFailed{{}, "A session that was not saved cannot be read and is kept as '" + file + "': " + error.what()});
       continue;
     }
     std::error_code error;
@@ -152,6 +155,11 @@ bool Disk::idle() {
   return queue_.empty() && !busy_;
 }
 
+bool Disk::wait(std::chrono::milliseconds most) {
+  std::unique_lock lock(mutex_);
+  return done_.wait_for(lock, most, [&] { return queue_.empty() && !busy_; });
+}
+
 void Disk::run() {
   begin();
   std::unique_lock lock(mutex_);
@@ -171,6 +179,7 @@ void Disk::run() {
     std::visit([&](const auto& which) { act(which); }, effect);
     lock.lock();
     busy_ = false;
+    if (queue_.empty()) done_.notify_all();
   }
 }
 
@@ -189,29 +198,43 @@ void Disk::begin() {
 void Disk::look_at_watched() {
   if (watched_.empty()) return;
   const auto now = changed(watched_);
-  if (!now || now == stamp_) return;
-  stamp_ = now;
+  if (!now || now == told_) return;
+  told_ = now;
   post_(FileChanged{watched_});
 }
 
 void Disk::act(const ReadFile& effect) {
   try {
-    if (!effect.file.ends_with(journal_extension)) return post_(FileRead{effect.file, read_text(effect.file)});
-    const Held held(effect.file);
-    if (!held) throw InputError("'" + effect.file + "' cannot be opened, or another window has it");
-    Restored restored = read_journal(read_text(effect.file));
+    const std::string file = whole_name(effect.file);
+    if (!file.ends_with(journal_extension)) {
+      read_ = file;
+      read_stamp_ = changed(file);
+      if (file == watched_) known_ = told_ = read_stamp_;
+      return post_(FileRead{file, read_text(file)});
+    }
+    const Held held(file);
+    if (!held) throw InputError("'" + file + "' cannot be opened, or another window has it");
+    Restored restored = read_journal(read_text(file));
     restored.journal = effect.file;
     post_(std::move(restored));
-  } catch (const InputError& error) {
+  } catch (const std::exception& error) {
     post_(FileFailed{effect.file, error.what()});
   }
 }
 
 void Disk::act(const WriteFile& effect) {
   try {
-    write_text(effect.file, effect.text);
-    if (effect.file == watched_) stamp_ = changed(watched_);
-    post_(FileWritten{effect.file, effect.text});
+    const std::string file = whole_name(effect.file);
+    const Stamp there = file == watched_ ? changed(file) : std::nullopt;
+    if (there && there != known_ && !effect.overwrite) {
+      told_ = there;
+      return post_(FileChanged{effect.file, true});
+    }
+    write_text(file, effect.text);
+    read_ = file;
+    read_stamp_ = changed(file);
+    if (file == watched_) known_ = told_ = read_stamp_;
+    post_(FileWritten{file, effect.text});
   } catch (const std::exception& error) {
     post_(FileFailed{effect.file, error.what()});
   }
@@ -220,7 +243,7 @@ void Disk::act(const WriteFile& effect) {
 void Disk::act(const WatchFile& effect) {
   if (watched_ == effect.file) return;
   watched_ = effect.file;
-  stamp_ = watched_.empty() ? std::nullopt : changed(watched_);
+  known_ = told_ = watched_.empty() ? std::nullopt : watched_ == read_ ? read_stamp_ : changed(watched_);
 }
 
 void Disk::act(const JournalBegin&) {
@@ -243,7 +266,7 @@ void Disk::act(const JournalBegin&) {
 void Disk::lose_journal() {
   if (journal_ >= 0) ::close(journal_);
   journal_ = -1;
-  post_(FileFailed{journal_file_, "The journal of this session cannot be written: save often."});
+  post_(FileFailed{{}, "The journal of this session cannot be written: save often."});
 }
 
 void Disk::act(const JournalLine& effect) {

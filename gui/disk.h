@@ -1,6 +1,7 @@
 // Everything that touches files, in a thread of its own and in the order it was asked for: nobody waits for a disk.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -29,8 +30,9 @@ class Disk {
   Disk(const Disk&) = delete;
   Disk& operator=(const Disk&) = delete;
 
-  void perform(Effect effect);  // one about files or journals; returns at once
-  bool idle();                  // all that was asked for is done
+  void perform(Effect effect);                // one about files or journals; returns at once
+  bool idle();                                // all that was asked for is done
+  bool wait(std::chrono::milliseconds most);  // until it is idle; false where it is not by then
 
  private:
   void run();
@@ -53,7 +55,7 @@ class Disk {
   const std::string folder_;
   const std::function<void(Event)> post_;
   std::mutex mutex_;  // of the queue
-  std::condition_variable arrived_;
+  std::condition_variable arrived_, done_;
   std::deque<Effect> queue_;
   bool ending_ = false, busy_ = false;
 
@@ -62,7 +64,10 @@ class Disk {
   std::string journal_file_;
   int journals_ = 0;
   std::string watched_;
-  std::optional<std::pair<long, long>> stamp_;  // when it was changed: s, ns
+  using Stamp = std::optional<std::pair<long, long>>;  // when a file was changed: s, ns
+  Stamp known_, told_;                                 // of the watched file: as read or written, and as last told of
+  std::string read_;                                   // the file that was read last, and
+  Stamp read_stamp_;                                   // as it was then
   std::thread thread_;
 };
 

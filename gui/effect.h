@@ -38,6 +38,7 @@ struct ReadFile {
 };
 struct WriteFile {
   std::string file, text;
+  bool overwrite = false;  // even what others wrote since it was read
 };
 struct WatchFile {  // tells of changes by somebody else; empty: none
   std::string file;

@@ -156,6 +156,7 @@ struct FileWritten {
 };
 struct FileChanged {  // by somebody else
   std::string file;
+  bool refused = false;  // it was to be written, and was not for that
 };
 
 // What was kept on disk: settings at the start, sessions that ended without being saved, and one that is opened again.

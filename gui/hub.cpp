@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "gui/replies.h"
@@ -25,6 +26,9 @@ Client::Callbacks callbacks(bool symbolic, const std::function<void(Event)>& pus
     push(DaemonIs{symbolic, condition, why});
   }};
 }
+
+// A window that closes waits so long for the disk; what is not saved by then stays in the journal.
+constexpr std::chrono::seconds longest_farewell{5};
 
 Event answered(int number, Request::Answer answer, const std::string& text, const protocol::Reply& reply) {
   if (!reply.error.is_null()) return Refused{number, reply.error.value("message", "refused without a reason")};
@@ -162,6 +166,8 @@ void Hub::perform(const Cancel& cancel) {
 }
 
 void Hub::close(bool discard) {
+  step(0);
+  disk_->wait(longest_farewell);  // saving, most often
   step(0);
   disk_->perform(JournalEnd{unsaved(state_) && !discard});
 }

@@ -38,7 +38,8 @@ class Hub {
   // once.
   bool step(double seconds);
   const State& state() const { return state_; }
-  // The window closes: the journal goes, unless something is unsaved and not to be thrown away.
+  // The window closes: what is being saved is waited for, some seconds at most, and the journal goes, unless something
+  // is unsaved and not to be thrown away.
   void close(bool discard = false);
 
   // Everything so far stands in the journal: from here on a crash loses nothing of it.

@@ -12,9 +12,10 @@ std::string text_to_save(const State& state) {
 
 bool unsaved(const State& state) { return state.scene && text_to_save(state) != state.saved; }
 
-// Where a run goes on, undoing is leaving it.
+// What waits is dropped first; where a run goes on, undoing is leaving it.
 bool can_undo(const State& state) {
   if (state.present < 0) return false;
+  if (state.waiting > 0) return true;
   if (state.running && state.log[state.present].checkpoint) return true;
   for (int i = state.present - 1; i >= 0; --i) {
     if (state.log[i].checkpoint) return true;

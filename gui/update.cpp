@@ -38,7 +38,7 @@ void sample(State& state, Effects& effects) {
 // What is next, when nothing is under way.
 void advance(State& state, Effects& effects) {
   Work& work = state.work;
-  if (work.opening || work.task || work.going) return;
+  if (work.opening || work.job.task || work.going) return;
   if (!ready(state)) {
     if (!work.tasks.empty()) {
       const Task task = work.tasks.front();
@@ -70,7 +70,7 @@ void advance(State& state, Effects& effects) {
   } else if (work.drag) {
     advance_drag(state, effects);
   }
-  if (!work.task) sample(state, effects);
+  if (!work.job.task) sample(state, effects);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ Effects update(State& state, const Event& event) {
   Effects effects;
   std::visit([&](const auto& which) { apply(state, which, effects); }, event);
   advance(state, effects);
-  state.waiting = static_cast<int>(state.work.tasks.size()) + (state.work.task ? 1 : 0);
+  state.waiting = static_cast<int>(state.work.tasks.size()) + (state.work.job.task ? 1 : 0);
   return effects;
 }
 

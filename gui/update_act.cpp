@@ -43,14 +43,8 @@ std::string mistakes(const Scene& compiled, int lines_before) {
   return sentences;
 }
 
-void end_task(State& state) {
-  state.work.task.reset();
-  state.work.acting = nullptr;
-  state.work.asked.clear();
-  state.work.prelude.clear();
-  state.work.unanswered = 0;
-  state.work.refusal.clear();
-  state.work.changed = false;
+void drop_notices_of_acts(State& state) {
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
 }
 
 // A scripted line is no part of the script any more once it is in the text.
@@ -73,7 +67,7 @@ std::vector<Statement> added_statements(const Scene& base, const Scene& compiled
 }  // namespace
 
 void apply(State& state, const Act& event, Effects&) {
-  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0; });
+  drop_notices_of_acts(state);
   Work& work = state.work;
   if (work.tasks.size() >= most_tasks) {
     notify(state,
@@ -84,7 +78,7 @@ void apply(State& state, const Act& event, Effects&) {
 }
 
 void apply(State& state, const RunScript&, Effects&) {
-  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0; });
+  drop_notices_of_acts(state);
   Work& work = state.work;
   if (!state.script.empty()) {
     work.scripting = true;
@@ -95,25 +89,29 @@ void apply(State& state, const RunScript&, Effects&) {
 
 void begin_task(State& state, Effects& effects) {
   Work& work = state.work;
-  work.task = std::move(work.tasks.front());
+  work.job.task = std::move(work.tasks.front());
   work.tasks.pop_front();
-  if (!work.task->scripted) work.task->line = with_line_end(std::move(work.task->line));
-  ask_compile(state, effects, ready_for_more(state.scene->text) + work.task->line, {Kind::act_compile, 0});
+  if (!work.job.task->scripted) work.job.task->line = with_line_end(std::move(work.job.task->line));
+  work.job.base = state.scene;
+  ask_compile(state, effects, ready_for_more(state.scene->text) + work.job.task->line, {Kind::act_compile, 0});
 }
 
 void compiled_base(State& state, const Compiled& event) {
   Work& work = state.work;
   Entry& entry = state.log[state.present];
-  if (event.scene->problem) entry.scene = state.scene = event.scene;
-  work.inexact = false;
-  work.tasks.push_front(std::move(*work.task));
-  end_task(state);
+  // A checkpoint may have brought iterations meanwhile: then once more.
+  if (event.scene->text == state.scene->text) {
+    if (event.scene->problem) entry.scene = state.scene = event.scene;
+    work.inexact = false;
+  }
+  work.tasks.push_front(std::move(*work.job.task));
+  work.job = {};
 }
 
 void compiled_task(State& state, const Compiled& event, Effects& effects) {
   Work& work = state.work;
-  const Scene &base = *state.scene, &compiled = *event.scene;
-  const Task task = *work.task;
+  const Scene &base = *work.job.base, &compiled = *event.scene;
+  const Task task = *work.job.task;
   const std::size_t begin = compiled.text.size() - task.line.size();
   const auto lines = static_cast<int>(std::count(compiled.text.begin(), compiled.text.begin() + begin, '\n'));
   if (!compiled.problem) return refuse_task(state, mistakes(compiled, lines), effects);
@@ -121,7 +119,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   if (statements.empty()) return refuse_task(state, "There is no statement in this line.", effects);
   const bool runs = std::ranges::any_of(statements, iterates);
   if (runs && statements.size() > 1) {  // each has its turn
-    end_task(state);
+    work.job = {};
     for (std::size_t i = statements.size(); i-- > 0;) {
       const std::size_t end = i + 1 < statements.size() ? statements[i + 1].begin : task.line.size();
       Task part = task;
@@ -138,15 +136,16 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   if (runs && work.run) {
     work.tasks.push_front(task);
     work.tasks.front().iterates = true;
-    return end_task(state);
+    work.job = {};
+    return;
   }
   const bool declares = !same_but_for_actions(*base.problem, *compiled.problem);
-  work.declares = declares;
+  work.job.declares = declares;
   const bool acts = std::ranges::any_of(statements, &Statement::action);
   if (acts && !work.unloaded.empty()) return refuse_task(state, work.unloaded, effects);
   if (declares && work.inexact) return ask_compile(state, effects, base.text, {Kind::base, 0});
 
-  work.acting = event.scene;
+  work.job.acting = event.scene;
   if (!work.run) cut_redo(state);
   if (declares && work.unloaded.empty()) {
     Request request;
@@ -154,8 +153,8 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
     request.problem = compiled.problem;
     request.answer = Request::Answer::done;
     ask(state, effects, std::move(request), {Kind::act_do, 0});
-    ++work.unanswered;
-    work.changed = true;
+    ++work.job.unanswered;
+    work.job.changed = true;
   }
   const auto& actions = compiled.problem->actions;
   for (auto i = static_cast<std::size_t>(actions_of(base)); i < actions.size(); ++i) {
@@ -165,69 +164,90 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       work.action = action;
       work.line = task.line;
       work.merge = task.merge;
+      work.began = state.log[state.present].number;
       work.scripted = task.scripted;
       state.running = true;
       state.stopping = false;
       state.ghost = state.ghost ? state.ghost : state.curves;
-      return end_task(state);
+      work.job = {};
+      return;
     }
-    work.asked.push_back(action);
+    work.job.asked.push_back(action);
     ask_action(state, effects, action, {Kind::act_do, 0});
-    ++work.unanswered;
+    ++work.job.unanswered;
   }
-  if (work.unanswered == 0) finish_task(state, effects);
+  if (work.job.unanswered == 0) finish_task(state, effects);
 }
 
-void performed(State& state, const Done& event, Effects& effects) {
+void drop_acts(State& state, Effects& effects) {
   Work& work = state.work;
-  for (const Logged& logged : event.log) {
-    if (!logged.line.empty()) work.prelude.push_back(logged.line);
-  }
-  work.changed = true;
-  if (--work.unanswered > 0) return;
-  work.refusal.empty() ? finish_task(state, effects) : refuse_task(state, work.refusal, effects);
-}
-
-void refuse_task(State& state, const std::string& why, Effects& effects) {
-  Work& work = state.work;
-  const Task task = *work.task;
-  notify(state, {task.place, Severity::error, why, task.about, 0});
+  work.tasks.clear();
   work.scripting = false;
-  if (task.merge || (!work.tasks.empty() && work.tasks.front().merge)) work.tasks.clear();
-  if (work.changed) {  // in part: back to where the present entry is
+  if (work.job.unanswered > 0) {  // part of it may have been done
+    forget(state, Kind::act_do);
     work.at = 0;
     if (work.run) {
       work.discarded = true;
       stop_run(state, effects);
     }
   }
-  end_task(state);
+  forget(state, Kind::act_compile);
+  forget(state, Kind::base);
+  work.job = {};
+}
+
+void performed(State& state, const Done& event, Effects& effects) {
+  Work& work = state.work;
+  for (const Logged& logged : event.log) {
+    if (!logged.line.empty()) work.job.prelude.push_back(logged.line);
+  }
+  work.job.changed = true;
+  if (--work.job.unanswered > 0) return;
+  work.job.refusal.empty() ? finish_task(state, effects) : refuse_task(state, work.job.refusal, effects);
+}
+
+void refuse_task(State& state, const std::string& why, Effects& effects) {
+  Work& work = state.work;
+  const Task task = *work.job.task;
+  notify(state, {task.place, Severity::error, why, task.about, 0});
+  work.scripting = false;
+  if (task.merge || (!work.tasks.empty() && work.tasks.front().merge)) work.tasks.clear();
+  if (work.job.changed) {  // in part: back to where the present entry is
+    work.at = 0;
+    if (work.run) {
+      work.discarded = true;
+      stop_run(state, effects);
+    }
+  }
+  work.job = {};
 }
 
 void finish_task(State& state, Effects& effects) {
   Work& work = state.work;
-  const Task task = *work.task;
-  const std::shared_ptr<const Scene> base = state.scene, compiled = work.acting;
+  const Task task = *work.job.task;
+  const std::shared_ptr<const Scene> base = work.job.base, compiled = work.job.acting;
   const std::size_t begin = compiled->text.size() - task.line.size();
   const auto lines = static_cast<int>(std::count(compiled->text.begin(), compiled->text.begin() + begin, '\n'));
   auto statements = added_statements(*base, *compiled, begin, lines);
-  auto scene = base;
+  // A checkpoint of the run that goes on may have brought iterations since it was compiled.
+  auto scene = state.scene;
+  const bool grown = scene->text != base->text;
   Entry entry;
-  for (const std::string& line : work.prelude) {
+  for (const std::string& line : work.job.prelude) {
     scene = appended(*scene, line + "\n", {iterating_statement(line)}, nullptr);
     entry.text += line + "\n";
   }
-  scene = appended(*scene, task.line, statements, work.declares ? compiled->problem : nullptr);
+  scene = appended(*scene, task.line, statements, work.job.declares ? compiled->problem : nullptr);
   entry.text += trimmed(task.line);
-  entry.actions = work.asked;
-  entry.iterated = !work.prelude.empty();
+  entry.actions = work.job.asked;
+  entry.iterated = !work.job.prelude.empty();
   entry.scene = std::move(scene);
   // Its places are those of a text without the lines of the prelude.
-  work.inexact = work.inexact || (work.declares && entry.iterated);
+  work.inexact = work.inexact || (work.job.declares && (entry.iterated || grown));
   if (!task.about.empty() || task.place == Place::equations) state.drafts.erase(task.about);
   take_from_script(state, task);
   if (!work.run) state.ghost = state.curves;
-  end_task(state);
+  work.job = {};
   append(state, std::move(entry), task.merge, true, effects);
   if (!work.run) return;
   Request look;  // what a set constant is worth

@@ -48,7 +48,7 @@ void end_run(State& state) {
 // One step less on the way to the present entry.
 void count_step(State& state) {
   Work& work = state.work;
-  if (--work.unanswered > 0) return;
+  if (--work.steps > 0) return;
   work.at = work.going;
   work.unloaded.clear();
   work.going = 0;
@@ -107,7 +107,8 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   entry.scene = appended(*last.scene, text, statements, nullptr);
   entry.iterated = true;
   if (work.scripted && !state.script.empty()) state.script.erase(state.script.begin());
-  append(state, std::move(entry), work.merge, seen, effects);
+  // Where the person did something else meanwhile, it stays an entry of its own.
+  append(state, std::move(entry), work.merge && seen && last.number == work.began, seen, effects);
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ void apply(State& state, const Done& event, Effects& effects) {
   const auto wanted = take(state, event.number);
   if (!wanted) return;
   if (wanted->kind == Kind::run) return finish_run(state, event, effects);
-  if (wanted->kind == Kind::act_do && state.work.task) return performed(state, event, effects);
+  if (wanted->kind == Kind::act_do && state.work.job.task) return performed(state, event, effects);
   if ((wanted->kind == Kind::steer || wanted->kind == Kind::steer_run) && state.work.drag) {
     --state.work.drag->unanswered;
   }
@@ -242,12 +243,12 @@ void apply(State& state, const Refused& event, Effects& effects) {
       return notify(state, {Place::optimisation, Severity::note, event.message, "", 0});
     case Kind::base:
     case Kind::act_compile:
-      if (work.task) refuse_task(state, event.message, effects);
+      if (work.job.task) refuse_task(state, event.message, effects);
       return;
     case Kind::act_do:
-      if (!work.task) return;
-      work.refusal = event.message;
-      if (--work.unanswered == 0) refuse_task(state, event.message, effects);
+      if (!work.job.task) return;
+      work.job.refusal = event.message;
+      if (--work.job.unanswered == 0) refuse_task(state, event.message, effects);
       return;
     case Kind::run:
       end_run(state);
@@ -256,7 +257,7 @@ void apply(State& state, const Refused& event, Effects& effects) {
     case Kind::go:
     case Kind::go_compile:
       forget(state, Kind::go);
-      work.unanswered = 0;
+      work.steps = 0;
       work.failed = work.going;
       work.going = 0;
       return tell(Place::status, "The optimizer cannot be led back to here: " + event.message);

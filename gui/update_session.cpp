@@ -33,6 +33,8 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
   next.revision = state.revision + 1;
   next.work.last = state.work.last;
   next.work.entries = state.work.entries;
+  for (const Notice& notice : state.notices)  // of daemons that are lost
+    if (notice.lasting && notice.about.empty()) next.notices.push_back(notice);
   state = std::move(next);
   effects.push_back(WatchFile{state.file});
 }
@@ -76,6 +78,13 @@ std::pair<std::string, std::vector<std::string>> split(const Scene& scene) {
 // More curves than these at once are a tangle; the person chooses.
 constexpr std::size_t curves_shown_first = 6;
 
+template <typename Named>
+void select_first(State& state, const std::vector<Named>& dofs) {
+  state.selection = {};
+  for (const Named& dof : dofs)
+    if (state.selection.dofs.size() < curves_shown_first) state.selection.dofs.push_back(dof.name);
+}
+
 void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effects) {
   Work& work = state.work;
   work.opening.reset();
@@ -89,9 +98,7 @@ void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effect
   if (!scene->problem) return;
   state.script = std::move(work.script);
   state.playback.time = scene->problem->start;
-  state.selection = {};
-  for (const Dof& dof : scene->problem->dofs)
-    if (state.selection.dofs.size() < curves_shown_first) state.selection.dofs.push_back(dof.name);
+  select_first(state, scene->problem->dofs);
   load_anew(state, state.log.front(), effects);
   effects.push_back(JournalBegin{});
   effects.push_back(JournalLine{journal_begin(state)});
@@ -145,17 +152,25 @@ void apply(State& state, const FileRead& event, Effects& effects) {
 }
 
 void apply(State& state, const FileFailed& event, Effects&) {
-  notify(state, {Place::status, Severity::error, event.message, event.file, 0});
+  notify(state, {Place::status, Severity::error, event.message, event.file, 0, true});
 }
 
 // A scene with mistakes, or one in which nothing was done, follows its file.
 void apply(State& state, const FileChanged& event, Effects& effects) {
+  if (event.refused) {
+    state.work.overwrite = event.file;
+    return notify(state, {Place::status, Severity::warning,
+                          "Not saved: '" + event.file +
+                              "' was changed by another program since it was read. Save once more to replace "
+                              "what is there, or save under another name.",
+                          event.file, 0, true});
+  }
   if (event.file != state.file) return;
   if (state.log.size() <= 1 && !state.work.run && !unsaved(state)) {
     effects.push_back(ReadFile{event.file});
   } else {
     notify(state, {Place::status, Severity::warning,
-                   "The file was changed by another program: open it again to see it.", event.file, 0});
+                   "The file was changed by another program: open it again to see it.", event.file, 0, true});
   }
 }
 
@@ -166,10 +181,13 @@ void apply(State& state, const Save& event, Effects& effects) {
     notify(state, {Place::status, Severity::error, "The scene has no file yet: give it a name.", "", 0});
     return;
   }
-  effects.push_back(WriteFile{file, text_to_save(state)});
+  const bool overwrite = std::exchange(state.work.overwrite, {}) == file;
+  effects.push_back(WriteFile{file, text_to_save(state), overwrite});
 }
 
 void apply(State& state, const FileWritten& event, Effects& effects) {
+  // Whatever was told of files was about this one, or one that matters no more.
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.lasting && !notice.about.empty(); });
   state.file = event.file;
   state.saved = event.text;
   effects.push_back(JournalLine{journal_saved(state)});
@@ -193,6 +211,10 @@ void apply(State& state, const Restored& event, Effects& effects) {
   for (Entry& entry : state.log) entry.number = ++work.entries;
   state.present = event.present;
   show(state, state.log[state.present]);
+  if (state.motion) {
+    state.playback.time = state.motion->start;
+    select_first(state, state.motion->dofs);
+  }
   // It goes on in a journal of its own.
   effects.push_back(JournalBegin{});
   effects.push_back(JournalLine{journal_begin(state)});
@@ -223,6 +245,10 @@ void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& 
 void go(State& state, Effects& effects) {
   Work& work = state.work;
   const Entry& entry = state.log[state.present];
+  const bool awaited = std::ranges::any_of(work.wanted, [&](const auto& wanted) {
+    return wanted.second.kind == Kind::checkpoint && wanted.second.entry == entry.number;
+  });
+  if (!entry.checkpoint && awaited) return;
   if (!entry.checkpoint && state.present > 0) {
     // It could not be asked for; the nearest one before it can be come back to.
     for (int i = state.present - 1; i >= 0; --i) {
@@ -236,13 +262,13 @@ void go(State& state, Effects& effects) {
   if (!entry.checkpoint || entry.checkpoint->empty()) return load_anew(state, entry, effects);
   work.going = entry.number;
   load(state, entry.scene->problem, {Kind::go, entry.number}, effects);
-  work.unanswered = 1;
+  work.steps = 1;
   Request request;
   request.method = "motion/set";
   request.params = "\"motion\":" + *entry.checkpoint;
   request.answer = Request::Answer::acknowledged;
   ask(state, effects, std::move(request), {Kind::go, entry.number});
-  ++work.unanswered;
+  ++work.steps;
 }
 
 void went(State& state, const Compiled& event, Effects& effects) {
@@ -264,19 +290,8 @@ void apply(State& state, const GoTo& event, Effects& effects) {
   if (event.entry < 0 || event.entry >= static_cast<int>(state.log.size())) return;
   if (!state.log[event.entry].checkpoint) return;
   Work& work = state.work;
-  work.tasks.clear();
-  work.scripting = false;
+  drop_acts(state, effects);
   work.failed = 0;
-  if (work.task) {
-    if (work.unanswered > 0) {  // part of it may have been done
-      work.at = 0;
-      work.discarded = work.run != 0;
-      forget(state, Kind::act_do);
-    }
-    forget(state, Kind::act_compile);
-    forget(state, Kind::base);
-    work.task.reset();
-  }
   if (work.drag) leave_drag(state, effects);
   if (work.going) {
     forget(state, Kind::go);
@@ -299,6 +314,11 @@ void apply(State& state, const GoTo& event, Effects& effects) {
 
 void apply(State& state, const Undo&, Effects& effects) {
   if (!can_undo(state)) return;
+  if (state.waiting > 0) {  // that was done last
+    drop_acts(state, effects);
+    if (state.work.discarded) show(state, state.log[state.present]);
+    return;
+  }
   int entry = state.present;
   if (!state.running || state.work.unseen) --entry;
   while (entry >= 0 && !state.log[entry].checkpoint) --entry;

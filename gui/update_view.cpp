@@ -119,7 +119,7 @@ void apply(State& state, const DaemonIs& event, Effects&) {
                    name + " is lost: " + event.why +
                        ". The motions of the log can be looked at and the scene can be "
                        "saved; to go on, save it, start the window again and open it.",
-                   "", 0});
+                   "", 0, true});
   }
   daemon.met = daemon.met || event.condition == Condition::ready;
   daemon.condition = event.condition;

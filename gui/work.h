@@ -63,22 +63,26 @@ struct Work {
 
   // Acting.
   std::deque<Task> tasks;
-  std::optional<Task> task;             // the one that has its turn
-  std::shared_ptr<const Scene> acting;  // compiled with it
-  std::vector<std::string> asked;       // its actions, as JSON
-  std::vector<std::string> prelude;     // lines that iterate, which came before it
-  int unanswered = 0;                   // of the job's requests
-  std::string refusal;                  // of one of them
-  bool changed = false;                 // one of them has been answered, or changes the problem
-  bool declares = false;                // the task changes the problem itself
-  bool scripting = false;               // the script goes on when there is nothing else to do
-  bool inexact = false;                 // the present scene's problem has places of a slightly different text
+  struct Job {
+    std::optional<Task> task;             // the one that has its turn
+    std::shared_ptr<const Scene> base;    // the present scene when it was its turn, to which it was compiled
+    std::shared_ptr<const Scene> acting;  // compiled with it
+    std::vector<std::string> asked;       // its actions, as JSON
+    std::vector<std::string> prelude;     // lines that iterate, which came before it
+    int unanswered = 0;                   // of its requests
+    std::string refusal;                  // of one of them
+    bool changed = false;                 // one of them has been answered, or changes the problem
+    bool declares = false;                // the task changes the problem itself
+  } job;
+  bool scripting = false;  // the script goes on when there is nothing else to do
+  bool inexact = false;    // the present scene's problem has places of a slightly different text
 
   // A run.
   int run = 0;             // its request; 0: none
   std::string action;      // as asked, and
   std::string line;        // as written
-  bool merge = false;      // its entry becomes part of the one before it
+  bool merge = false;      // its entry becomes part of the one it began from
+  int began = 0;           // number of that entry
   bool scripted = false;   // taken from State::script
   bool unseen = false;     // the person has gone elsewhere meanwhile
   bool discarded = false;  // nothing is to be left of it
@@ -86,6 +90,7 @@ struct Work {
   // Where the optimizer stands: number of an entry; 0: unknown.
   int at = 0;
   int going = 0;          // where it is being led
+  int steps = 0;          // on the way there that are not answered yet
   int failed = 0;         // where it could not be led
   std::string unloaded;   // why it takes no problem yet: the scene is still being written
   bool restored = false;  // the present entry's text is still to be compiled
@@ -101,6 +106,8 @@ struct Work {
     bool begun = false;  // anything was sent
   };
   std::optional<Drag> drag;
+
+  std::string overwrite;  // the file that others changed, of which was told: saving again replaces it
 
   // Samples.
   int sample = 0;        // the request; 0: none

@@ -36,7 +36,7 @@ void until(gui::Hub& hub, const std::function<bool(const gui::State&)>& holds, c
 
 bool quiet(const gui::State& state) {
   const gui::Work& work = state.work;
-  if (work.opening || work.task || !work.tasks.empty() || work.run || work.going || work.drag) return false;
+  if (work.opening || work.job.task || !work.tasks.empty() || work.run || work.going || work.drag) return false;
   if (work.scripting || state.present < 0) return false;
   const gui::Entry& entry = state.log[state.present];
   if (!entry.scene->problem) return !entry.scene->diagnostics.empty();

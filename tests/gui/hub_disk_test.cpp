@@ -115,5 +115,38 @@ TEST(HubDisk, AJournalGoesOnlyWhenAnotherHoldsWhatItHeld) {
   EXPECT_FALSE(fs::exists(old));
 }
 
+TEST(HubDisk, FilesAreKnownByTheirWholeNames) {
+  const std::string file = scratch("whole.scene"), relative = fs::relative(file).string();
+  ASSERT_NE(file, relative);
+  Told told({});
+  told.disk.perform(WriteFile{relative, "a", false});
+  told.disk.perform(ReadFile{relative});
+  const auto written = told.wait<FileWritten>();
+  const auto read = told.wait<FileRead>();
+  ASSERT_TRUE(written && read);
+  EXPECT_EQ(written->file, file);
+  EXPECT_EQ(read->file, file);
+}
+
+TEST(HubDisk, WhatOthersWroteSinceItWasReadIsNotReplacedUnasked) {
+  const std::string file = scratch("shared.scene");
+  write_text(file, "as it was");
+  Told told({});
+  told.disk.perform(ReadFile{file});
+  told.disk.perform(WatchFile{file});
+  told.disk.perform(WriteFile{file, "mine", false});
+  ASSERT_TRUE(told.wait<FileWritten>());
+  write_text(file, "another's");
+  fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(2));
+  told.disk.perform(WriteFile{file, "mine again", false});
+  const auto changed = told.wait<FileChanged>();
+  ASSERT_TRUE(changed);
+  told.rest();
+  EXPECT_EQ(read_text(file), "another's");
+  told.disk.perform(WriteFile{file, "mine again", true});
+  ASSERT_TRUE(told.wait<FileWritten>());
+  EXPECT_EQ(read_text(file), "mine again");
+}
+
 }  // namespace
 }  // namespace spacetime::test

@@ -63,6 +63,7 @@ TEST(HubJournal, BringsBackLogMotionsAndPlaceWithoutSolving) {
   const State& state = hub.state();
   EXPECT_TRUE(state.record.empty());  // nothing iterated
   EXPECT_TRUE(state.left.empty());
+  EXPECT_FALSE(state.selection.dofs.empty());  // there are curves to be seen
   EXPECT_EQ(state.log.size(), 5U);
   EXPECT_EQ(state.present, 3);
   EXPECT_EQ(text_to_save(state), text);
@@ -82,6 +83,20 @@ TEST(HubJournal, BringsBackLogMotionsAndPlaceWithoutSolving) {
   hub.close();
   until(
       hub, [&](const State&) { return journals(folder).empty(); }, "the journal to go");
+}
+
+TEST(HubJournal, SavingBeforeLeavingIsWaitedFor) {
+  for (const bool possible : {true, false}) {
+    const std::string folder = scratch(possible ? "left" : "not_left");
+    {
+      Hub hub(daemons(folder));
+      post_and_wait(hub, OpenText{text_of("examples/double_integrator.scene")});
+      act(hub, "iterate 1");
+      hub.post(Save{possible ? scratch("left.scene") : scratch("no_folder") + "/left.scene"});
+      hub.close();
+    }
+    EXPECT_EQ(journals(folder).size(), possible ? 0U : 1U);
+  }
 }
 
 TEST(HubJournal, IsReadUpToWhereItWasCut) {

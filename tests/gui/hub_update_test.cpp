@@ -302,6 +302,124 @@ TEST(Update, ADragSendsTheNewestValueAlone) {
   EXPECT_FALSE(table.state.steering);
 }
 
+TEST(Update, UndoDuringTheSolveAfterADragLeavesThatToBeRedone) {
+  Table table;
+  table.open();
+  const Words words = set_words("k", 1);
+  table.feed(Steer{{words.line, {words.action}}});
+  table.feed(Steered{true});
+  table.requests.erase(table.requests.begin(), table.requests.begin() + 3);  // the drag's, which nobody waits for
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  table.compile();
+  table.done(table.take("action/do"), {{words.action, ""}});
+  table.reach(0);
+  table.compile();
+  const Request run = table.take("action/do");
+  const std::string text = text_of(table.state);
+  table.feed(Undo{});
+  EXPECT_EQ(table.state.present, 1);
+  table.done(run, {{R"({"action":"iterate","iterations":3})", "iterate 3"}}, true);
+  table.reach(3);
+  ASSERT_EQ(table.state.log.size(), 3U);
+  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.state.log[1].scene->text, text);
+  EXPECT_EQ(text_of(table.state), text);
+  EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 0);
+  EXPECT_TRUE(can_redo(table.state));
+}
+
+TEST(Update, UndoDropsWhatWaitsAndOnlyThat) {
+  Table table;
+  table.open();
+  table.set();
+  table.reach(0);
+  table.feed(Act{"set k"});
+  table.feed(Act{"set k"});
+  table.feed(Undo{});
+  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.state.waiting, 0);
+  table.requests.clear();  // to compile it
+  // One that may have been performed: the optimizer is led back.
+  table.feed(Act{"set k"});
+  table.compile();
+  table.take("action/do");
+  table.feed(Undo{});
+  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.count("motion/set"), 1);
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  EXPECT_EQ(table.state.work.at, table.state.log[1].number);
+  table.feed(Undo{});
+  EXPECT_EQ(table.state.present, 0);
+}
+
+TEST(Update, NothingOfAnActThatWasLeftIsInTheNext) {
+  Table table;
+  table.open();
+  table.set();
+  table.reach(0);
+  table.feed(Act{"set k\nset k"});
+  table.compile();
+  const Request first = table.take("action/do");
+  table.done(first, {{R"({"action":"iterate","iterations":4})", "iterate 4"}, {first.params.substr(9), ""}});
+  table.take("action/do");
+  table.feed(GoTo{0});
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  table.set();
+  ASSERT_EQ(table.state.log.size(), 2U);
+  EXPECT_EQ(text_of(table.state), "time\nset k\n");
+  EXPECT_EQ(table.state.log[1].actions.size(), 1U);
+}
+
+TEST(Update, AnActIsComparedWithTheTextItWasCompiledBehind) {
+  Table table;
+  table.open();
+  table.solve();
+  table.set();
+  table.feed(Act{"set k"});
+  // Meanwhile it is known how far the run had come.
+  table.feed(Reached{table.take("motion/get").number,
+                     std::make_shared<Motion>(),
+                     std::make_shared<std::string>("{}"),
+                     {{R"({"action":"iterate","iterations":2})", "iterate 2"}}});
+  EXPECT_EQ(text_of(table.state), "time\nset k\niterate 2\n");
+  table.compile();
+  const Request second = table.take("action/do");
+  table.done(second, {{second.params.substr(9), ""}});
+  EXPECT_EQ(text_of(table.state), "time\nset k\niterate 2\nset k\n");
+  ASSERT_EQ(table.state.log.size(), 3U);
+  EXPECT_EQ(table.state.log[2].actions.size(), 1U);
+  EXPECT_EQ(table.state.scene->outline.size(), 4U);
+}
+
+TEST(Update, WhatIsToldOfFilesAndDaemonsOutlivesActs) {
+  Table table;
+  table.feed(FileRead{"/a.scene", "time\n"});
+  table.compile();
+  table.acknowledge(table.take("problem/load"));
+  table.reach(0);
+  table.set();
+  table.reach(0);
+  table.feed(FileChanged{"/a.scene"});
+  table.feed(DaemonIs{true, Daemon::Condition::lost, "gone"});
+  table.feed(Act{"set k"});
+  EXPECT_EQ(table.state.notices.size(), 2U);
+
+  // Saving is refused once.
+  table.feed(Save{});
+  EXPECT_FALSE(std::get<WriteFile>(table.others.back()).overwrite);
+  table.feed(FileChanged{"/a.scene", true});
+  EXPECT_EQ(table.state.notices.size(), 3U);
+  table.feed(Save{});
+  EXPECT_TRUE(std::get<WriteFile>(table.others.back()).overwrite);
+  table.feed(FileWritten{"/a.scene", text_of(table.state)});
+  EXPECT_EQ(table.state.notices.size(), 1U);  // the daemon is lost still
+  table.feed(Save{});
+  EXPECT_FALSE(std::get<WriteFile>(table.others.back()).overwrite);
+}
+
 TEST(Update, ASamplesAnswerIsAwaitedBeforeTheNextIsAsked) {
   Table table;
   table.state.optimizer.condition = Daemon::Condition::ready;
