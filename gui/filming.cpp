@@ -30,7 +30,7 @@ std::string last_line(const std::string& said) {
 Filming::~Filming() { stop(); }
 
 void Filming::stop() {
-  if (process_ > 0) ::kill(process_, SIGTERM);
+  if (const int process = process_; process > 0) ::kill(process, SIGTERM);
   if (thread_.joinable()) thread_.join();
   process_ = 0;
 }
@@ -57,15 +57,21 @@ void Filming::perform(const MakeFilm& effect) {
     arguments.insert(arguments.end(), {"--rate", rate.c_str()});
   }
   arguments.push_back(nullptr);
-  process_ = ::fork();
-  if (process_ == 0) {
+  const int child = ::fork();
+  if (child < 0) {
+    ::close(pipe[0]);
+    ::close(pipe[1]);
+    return post_(Filmed{effect.file, "no process can be started", Filmed::What::failed});
+  }
+  if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::dup2(pipe[1], STDERR_FILENO);
     ::execv(self.c_str(), const_cast<char**>(arguments.data()));
     ::_exit(127);
   }
+  process_ = child;
   ::close(pipe[1]);
-  thread_ = std::thread([this, output = pipe[0], process = process_, motion_file, file = effect.file] {
+  thread_ = std::thread([this, output = pipe[0], process = child, motion_file, file = effect.file] {
     watch(output, process, motion_file, file);
   });
 }
@@ -84,6 +90,7 @@ void Filming::watch(int output, int process, const std::string& motion_file, con
   ::close(output);
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  process_ = 0;
   std::error_code none;
   std::filesystem::remove(motion_file, none);
   const bool done = WIFEXITED(status) && WEXITSTATUS(status) == 0;

@@ -1,6 +1,7 @@
 // Pictures and films of a motion, made by this program's `render` in a process of its own while the window goes on.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <thread>
@@ -25,7 +26,7 @@ class Filming {
   void watch(int output, int process, const std::string& motion_file, const std::string& file);
 
   const std::function<void(Event)> post_;
-  int process_ = 0;
+  std::atomic<int> process_ = 0;  // 0: none, or it has been waited for
   std::thread thread_;
 };
 

@@ -4,6 +4,9 @@
 
 #include "common/bspline.h"
 #include "common/constants.h"
+#include "gui/words.h"
+#include "protocol/action_json.h"
+#include "protocol/json.h"
 
 namespace spacetime::gui {
 namespace {
@@ -33,7 +36,8 @@ bool is_given(const std::string& name) { return name.find(' ') == std::string::n
 class Asking {
  public:
   explicit Asking(const Problem& problem) : problem_(problem) {
-    out_.constants = evaluate_constants(problem);
+    for (const Constant& constant : problem.constants)
+      if (const auto value = number(constant.value)) out_.constants[constant.name] = *value;
     for (const Dof& dof : problem.dofs) {
       Freedom freedom;
       freedom.name = dof.name;
@@ -51,14 +55,20 @@ class Asking {
       out_.equations.push_back(equation_of(term));
       out_.equations.back().weight = number(term.weight);
     }
+    for (const Keyframe& keyframe : problem.keyframes)
+      if (const auto time = number(keyframe.time)) out_.keys.push_back(*time);
   }
 
-  void after(const PlacedAction& placed) { std::visit(*this, placed.action); }
+  void after(const Action& action) { std::visit(*this, action); }
 
-  void operator()(const SetConstant& set) { out_.constants[set.constant] = number(set.value); }
+  void operator()(const SetConstant& set) {
+    if (const auto value = number(set.value)) out_.constants[set.constant] = *value;
+  }
+  void operator()(const PullKeys& keys) {
+    if (const auto time = number(keys.time)) out_.keys.push_back(*time);
+  }
   void operator()(const SetWeight& set) {
-    if (Equation* equation = named(set.name))
-      equation->weight = set.weight ? std::optional(number(*set.weight)) : std::nullopt;
+    if (Equation* equation = named(set.name)) equation->weight = set.weight ? number(*set.weight) : std::nullopt;
   }
   void operator()(const Enable& enable) {
     if (Equation* equation = named(enable.name)) equation->enabled = true;
@@ -73,6 +83,7 @@ class Asking {
     Equation* equation = named(replace.name);
     if (!equation) return;
     const auto with = static_cast<std::size_t>(replace.with);
+    if (with >= (equation->objective ? problem_.objective.size() : problem_.constraints.size())) return;
     const bool enabled = equation->enabled;
     std::optional<Quantity> weight;
     if (equation->objective) {
@@ -87,7 +98,10 @@ class Asking {
     if (weight) equation->weight = number(*weight);
   }
   void operator()(const Rescope& rescope) {
-    if (Equation* equation = named(rescope.name)) equation->scope = rescope.scope;
+    Equation* equation = named(rescope.name);
+    if (!equation) return;
+    equation->scope = rescope.scope;
+    equation->rescoped = true;
   }
   void operator()(const Bound& bound) {
     for (Freedom& dof : out_.dofs) {
@@ -102,7 +116,9 @@ class Asking {
   }
   void operator()(const Window& window) {
     out_.window.reset();
-    if (window.interval) out_.window = {number(window.interval->from), number(window.interval->to)};
+    if (window.interval)
+      out_.window = {number(window.interval->from).value_or(problem_.start),
+                     number(window.interval->to).value_or(problem_.end)};
     for (Freedom& dof : out_.dofs) dof.in_window = is_among(window.dofs, dof.name);
   }
   template <class Other>
@@ -114,7 +130,7 @@ class Asking {
   static bool is_among(const DofNames& names, const std::string& name) {
     return names.empty() || std::ranges::find(names, name) != names.end();
   }
-  double number(const Quantity& quantity) const { return value_of(quantity, problem_, out_.constants); }
+  std::optional<double> number(const Quantity& quantity) const { return value_of(quantity, problem_, out_.constants); }
   Equation* named(const std::string& name) {
     const auto found = std::ranges::find(out_.equations, name, &Equation::name);
     return found == out_.equations.end() ? nullptr : &*found;
@@ -126,22 +142,66 @@ class Asking {
 
 }  // namespace
 
-double value_of(const Quantity& quantity, const Problem& problem, const std::map<std::string, double>& constants) {
-  return evaluate(problem, constants, quantity, "a number of the scene");
+std::optional<double> value_of(const Quantity& quantity, const Problem& problem,
+                               const std::map<std::string, double>& constants) {
+  try {
+    return evaluate(problem, constants, quantity, "a number of the scene");
+  } catch (const std::exception&) {
+    return std::nullopt;  // a constant that it needs has made it no number, or has no number itself
+  }
 }
 
-Question question_of(const Scene& scene) {
-  if (!scene.problem) return {};
-  Asking asking(*scene.problem);
-  for (const PlacedAction& action : scene.problem->actions) asking.after(action);
+Question question_of(const State& state) {
+  if (!state.scene || !state.scene->problem) return {};
+  Asking asking(*state.scene->problem);
+  // The problem may be of an earlier text: actions that declare nothing leave it as it is.  The log has them all.
+  for (int entry = 1; entry <= state.present; ++entry) {
+    for (const std::string& action : state.log[static_cast<std::size_t>(entry)].actions) {
+      const Json json = Json::parse(action, nullptr, false);
+      try {
+        asking.after(action_from(Node(json, "action")).action);
+      } catch (const InputError&) {
+        // The optimizer has understood it, so a newer version of this program will.
+      }
+    }
+  }
   Question question = asking.take();
   for (Equation& equation : question.equations) {
     equation.named = is_given(equation.name);
     const auto statement =
-        std::ranges::find_if(scene.outline, [&](const Statement& s) { return s.line == equation.line; });
-    if (statement != scene.outline.end()) equation.text = statement->text;
+        std::ranges::find_if(state.scene->outline, [&](const Statement& s) { return s.line == equation.line; });
+    if (statement != state.scene->outline.end()) equation.text = statement->text;
   }
   return question;
+}
+
+std::string scope_text(const Equation& equation, const Problem& problem, const std::map<std::string, double>& constants,
+                       std::optional<double> from, std::optional<double> to) {
+  const Scope& scope = equation.scope;
+  const auto number = [&](const Quantity& quantity) {
+    return number_text(value_of(quantity, problem, constants).value_or(0));
+  };
+  std::string first = number(scope.from), second = number(scope.to), rest;
+  if (scope.kind == Scope::Kind::every) rest = " every " + number(scope.step);
+  if (scope.kind == Scope::Kind::count) rest = " count " + std::to_string(scope.count);
+  // As it was written, constants by their names.
+  const std::size_t over = equation.text.rfind("over [");
+  if (!equation.rescoped && over != std::string::npos) {
+    const std::size_t begin = over + 6;
+    std::size_t comma = std::string::npos, end = begin;
+    for (int depth = 0; end < equation.text.size() && (depth > 0 || equation.text[end] != ']'); ++end) {
+      if (equation.text[end] == '(' || equation.text[end] == '[') ++depth;
+      if (equation.text[end] == ')' || equation.text[end] == ']') --depth;
+      if (equation.text[end] == ',' && depth == 0) comma = end;
+    }
+    if (comma != std::string::npos && end < equation.text.size()) {
+      first = trimmed(equation.text.substr(begin, comma - begin));
+      second = trimmed(equation.text.substr(comma + 1, end - comma - 1));
+    }
+  }
+  if (from) first = number_text(*from);
+  if (to) second = number_text(*to);
+  return "over [" + first + ", " + second + "]" + rest;
 }
 
 std::vector<double> times_of(const Scope& scope, const Problem& problem, const std::map<std::string, double>& constants,

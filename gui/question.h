@@ -25,6 +25,7 @@ struct Equation {
   Constraint::Relation relation = Constraint::Relation::equal;
   std::string program;
   bool conditional = false;
+  bool rescoped = false;  // since it was written
 };
 
 struct Freedom {
@@ -39,12 +40,20 @@ struct Question {
   std::vector<Freedom> dofs;
   std::optional<std::pair<double, double>> window;  // absent: all of the time
   std::map<std::string, double> constants;
+  std::vector<double> keys;  // s: keyframes of the sketch, and poses keyed since
 };
 
-Question question_of(const Scene& scene);
+// Of the present entry.
+Question question_of(const State& state);
 
-// A number that may follow from constants.
-double value_of(const Quantity& quantity, const Problem& problem, const std::map<std::string, double>& constants);
+// A number that may follow from constants; nothing where it is no finite number with these.
+std::optional<double> value_of(const Quantity& quantity, const Problem& problem,
+                               const std::map<std::string, double>& constants);
+
+// How a statement's scope is written from `over` on, with its ends where they are given in place of its own:
+// "over [0, release] every 0.1".  A scope that was restated since has numbers only.
+std::string scope_text(const Equation& equation, const Problem& problem, const std::map<std::string, double>& constants,
+                       std::optional<double> from, std::optional<double> to);
 
 // The times at which a statement with this scope is sampled.  For scopes on the knots `basis` is the finest one of the
 // motion.  Empty for statements without time.

@@ -23,10 +23,7 @@ Steering setting(const std::vector<std::pair<std::string, double>>& constants) {
 
 void draw_constants(Ui& ui) {
   const State& s = ui.state;
-  if (!s.scene || !s.scene->problem) {
-    ImGui::TextWrapped("The scene has mistakes: see its text.");
-    return;
-  }
+  if (!has_problem(ui)) return;
   if (s.scene->problem->constants.empty())
     ImGui::TextWrapped(
         "The scene has no constants. Write 'constant basket = 2.5' in it, and use the name in constraints: "
@@ -63,8 +60,9 @@ void draw_constants(Ui& ui) {
                           "%.5g");
         ui.here("constant " + constant.name);
         const bool typing = ImGui::IsItemActive() && ImGui::GetIO().WantTextInput;
-        if (ImGui::IsItemEdited() && !typing) ui.emit(Steer{setting({{constant.name, value}})});
-        if (ImGui::IsItemDeactivatedAfterEdit()) {
+        const bool usable = std::isfinite(value) && !ui.memory.drag_dropped;
+        if (ImGui::IsItemEdited() && !typing && usable) ui.emit(Steer{setting({{constant.name, value}})});
+        if (ImGui::IsItemDeactivatedAfterEdit() && usable) {
           if (!s.steering) ui.emit(Steer{setting({{constant.name, value}})});
           ui.emit(Steered{true});
         }

@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/diagnostic.h"
+#include "common/files.h"
+
 namespace spacetime::gui {
 namespace {
 
@@ -90,7 +93,7 @@ void draw_welcome(Ui& ui) {
                          ImGui::CalcTextSize(example.about.c_str(), nullptr, false, width - ui.scaled(16)).y +
                          ui.scaled(10);
     if (ImGui::Selectable(("##" + example.file).c_str(), false, 0, {width, height})) {
-      leave_for(ui, example.file);
+      leave_for(ui, example.file, true);
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
@@ -272,13 +275,21 @@ void draw_files(Ui& ui) {
   ImGui::EndPopup();
 }
 
-void go(Ui& ui, const std::string& file) {
+void go(Ui& ui, const std::string& file, bool example) {
   ui.memory.quit_asked = false;
   ui.memory.after_saving.clear();
-  if (file.empty())
+  if (file.empty()) {
     ui.memory.quit = true;
-  else
+  } else if (example) {
+    // A copy without a file of its own: saving asks for one, and the example stays as it is.
+    try {
+      ui.emit(OpenText{read_text(file)});
+    } catch (const InputError& error) {
+      ui.memory.files.error = error.what();
+    }
+  } else {
     ui.emit(Open{file});
+  }
 }
 
 void draw_guard(Ui& ui) {
@@ -296,15 +307,15 @@ void draw_guard(Ui& ui) {
       ui.memory.quit_asked = false;
     } else {
       ui.emit(Save{});
-      go(ui, next);
+      go(ui, next, ui.memory.after_is_example);
     }
     ImGui::CloseCurrentPopup();
   }
   ui.here("guard save");
   ImGui::SameLine();
   if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
-    ui.memory.discard = true;
-    go(ui, next);
+    ui.memory.discard = next.empty();
+    go(ui, next, ui.memory.after_is_example);
     ImGui::CloseCurrentPopup();
   }
   ui.here("guard discard");
@@ -328,10 +339,12 @@ std::string examples_folder() {
   return "";
 }
 
-void leave_for(Ui& ui, const std::string& file) {
-  if (!unsaved(ui.state)) return go(ui, file);
+void leave_for(Ui& ui, const std::string& file, bool example) {
+  ui.memory.discard = false;
+  if (!unsaved(ui.state)) return go(ui, file, example);
   ui.memory.quit_asked = true;
   ui.memory.after_saving = file;
+  ui.memory.after_is_example = example;
 }
 
 void draw_dialogs(Ui& ui) {

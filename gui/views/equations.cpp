@@ -4,6 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spacetime::gui {
 namespace {
@@ -30,12 +31,15 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
   std::string text = ui.state.drafts.at(about);
   ImGui::PushFont(ui.memory.fonts.code);
   ImGui::SetNextItemWidth(-1);
+  if (ui.memory.focused_draft != about) ImGui::SetKeyboardFocusHere();
+  ui.memory.focused_draft = about;
   const bool entered =
       ImGui::InputTextWithHint(("##draft " + about).c_str(), hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.here("draft " + about);
   ImGui::PopFont();
   if (text != ui.state.drafts.at(about)) ui.emit(Draft{about, text});
   if (entered && !text.empty()) ui.act(prefix + text, place, about);
+  if (entered) ui.memory.focused_draft.clear();  // stays where it was typed, in case of a mistake
   ui.notices(place, about);
   if (ImGui::SmallButton(("Apply##" + about).c_str()) && !text.empty()) ui.act(prefix + text, place, about);
   ui.here("apply " + about);
@@ -96,7 +100,7 @@ void draw_weight(Ui& ui, const Equation& equation) {
   ImGui::SetNextItemWidth(-1);
   if (!equation.named) ImGui::BeginDisabled();
   ImGui::InputDouble(("##weight " + equation.name).c_str(), &weight, 0, 0, "%.4g");
-  if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight)
+  if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight && std::isfinite(weight))
     ui.act("weight " + equation.name + " = " + written(weight), place, equation.name);
   ui.here("weight " + equation.name);
   if (!equation.named) ImGui::EndDisabled();
@@ -141,10 +145,8 @@ void draw_row(Ui& ui, const Equation& equation) {
 
 void draw_equations(Ui& ui) {
   const State& s = ui.state;
-  if (!s.scene || !s.scene->problem) {
-    ImGui::TextWrapped("The scene has mistakes: see its text.");
-    return;
-  }
+  if (s.drafts.empty()) ui.memory.focused_draft.clear();
+  if (!has_problem(ui)) return;
   const Question& question = ui.question();
   for (const bool objective : {false, true}) {
     ImGui::PushFont(ui.memory.fonts.strong);

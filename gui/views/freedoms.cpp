@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/bspline.h"
 
@@ -24,11 +25,15 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
 
 // Bounds are typed as two numbers; both are needed, since the language has no half-open bound.
 void draw_bounds(Ui& ui, const Freedom& dof) {
-  double ends[2]{dof.lower.value_or(-1e3), dof.upper.value_or(1e3)};
+  double* ends = ui.memory.bounds;
+  if (ImGui::IsWindowAppearing()) {
+    ends[0] = dof.lower.value_or(-1);
+    ends[1] = dof.upper.value_or(1);
+  }
   ImGui::SetNextItemWidth(ui.scaled(120));
   ImGui::InputScalarN("##ends", ImGuiDataType_Double, ends, 2, nullptr, nullptr, "%.4g");
   ImGui::SameLine();
-  if (ImGui::Button("Bound")) {
+  if (ImGui::Button("Bound") && std::isfinite(ends[0]) && std::isfinite(ends[1])) {
     ui.act(fmt::format("bound {} in [{}, {}]", dof.name, written(ends[0]), written(ends[1])), place);
     ImGui::CloseCurrentPopup();
   }
@@ -118,10 +123,7 @@ ImVec4 colour_of(const Ui& ui, const std::string& name) {
 
 void draw_freedoms(Ui& ui) {
   const State& s = ui.state;
-  if (!s.scene || !s.scene->problem) {
-    ImGui::TextWrapped("The scene has mistakes: see its text.");
-    return;
-  }
+  if (!has_problem(ui)) return;
   const Problem& problem = *s.scene->problem;
   const Question& question = ui.question();
   const bool narrowed =

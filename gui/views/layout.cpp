@@ -66,8 +66,9 @@ void draw_window(Ui& ui, SceneView& scene) {
   m.places.clear();
   take_keys(ui);
   // A scene with mistakes shows them.
-  if (ui.state.scene && !ui.state.scene->problem && m.mistaken != ui.state.scene) m.tab_right = text_tab;
-  m.mistaken = ui.state.scene && !ui.state.scene->problem ? ui.state.scene : nullptr;
+  const bool wrong = ui.state.scene && !ui.state.scene->diagnostics.empty();
+  if (wrong && m.mistaken != ui.state.scene) m.tab_right = text_tab;
+  m.mistaken = wrong ? ui.state.scene : nullptr;
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport.Pos);
   ImGui::SetNextWindowSize(viewport.Size);

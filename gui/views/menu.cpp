@@ -208,7 +208,7 @@ void draw_status(Ui& ui) {
     if (ImGui::IsItemClicked()) ui.emit(Dismiss{static_cast<int>(i)});
     ui.help((notice.text + "\nClick to put this away.").c_str());
   }
-  if (told || !s.motion) return;
+  if (told || !s.motion || (!s.running && s.motion->iterations == 0)) return;
   // The first sentence; the rest is in the panel, and in the help.
   const std::string& message = s.motion->message;
   ImGui::TextDisabled("%s", s.running ? "Solving" : message.substr(0, message.find(". ", 0)).c_str());
@@ -219,6 +219,8 @@ void take_keys(Ui& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   const State& s = ui.state;
   const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+  if (!ImGui::IsAnyMouseDown()) ui.memory.drag_dropped = false;
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
   if (pressed(GLFW_KEY_F1)) ui.memory.shortcuts = true;
   if (pressed(GLFW_KEY_F5)) {
     if (s.running)
@@ -227,7 +229,6 @@ void take_keys(Ui& ui) {
       run(ui);
   }
   if (pressed(GLFW_KEY_F10) && can_run(ui)) ui.act("iterate 1", Notice::Place::optimisation);
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
   if (io.KeyCtrl) {
     if (pressed(GLFW_KEY_O)) ui.memory.files.dialog = FilesMemory::Dialog::open;
     if (pressed(GLFW_KEY_E)) ui.memory.welcome = true;
@@ -242,9 +243,10 @@ void take_keys(Ui& ui) {
   }
   if (io.WantTextInput) return;
   if (pressed(GLFW_KEY_ESCAPE)) {
-    if (s.steering)
+    if (s.steering) {
       ui.emit(Steered{false});
-    else if (s.pose)
+      ui.memory.drag_dropped = true;
+    } else if (s.pose)
       ui.emit(SetPose{});
     else if (s.running)
       ui.emit(Stop{});

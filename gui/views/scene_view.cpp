@@ -132,6 +132,7 @@ std::vector<std::string> movable(const Ui& ui, const Body& body) {
 
 void pull_body(Ui& ui, const Pull& pull, const glm::vec3& target) {
   const Problem& problem = *ui.state.scene->problem;
+  if (static_cast<std::size_t>(pull.body) >= problem.bodies.size()) return;  // another scene has come meanwhile
   const Body& body = problem.bodies[static_cast<std::size_t>(pull.body)];
   const std::vector<std::string> free = movable(ui, body);
   if (free.empty()) return;
@@ -201,7 +202,7 @@ void take_mouse(Ui& ui, Pull& pull, const Picture& picture, const Figures& figur
       take_hold(ui, pull, body, ray);
     }
   }
-  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2)) {
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2) && !ui.memory.drag_dropped) {
     if (pull.what == Pull::What::camera && (moved.x != 0 || moved.y != 0))
       camera = orbit(camera, -moved.x * 0.008F, moved.y * 0.008F);
     const auto target = meet(ray, pull.start, camera);

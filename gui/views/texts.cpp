@@ -94,7 +94,9 @@ void draw_text(Ui& ui) {
 
 void draw_log(Ui& ui) {
   const State& s = ui.state;
-  ImGui::TextDisabled("Every act is a line of the scene. Click one to go back to it.");
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.colours().faint);
+  ImGui::TextWrapped("Every act is a line of the scene. Click one to go back to it.");
+  ImGui::PopStyleColor();
   ImGui::BeginChild("entries");
   for (std::size_t i = 0; i < s.log.size(); ++i) {
     const Entry& entry = s.log[i];
@@ -110,7 +112,7 @@ void draw_log(Ui& ui) {
     ImGui::PopFont();
     ImGui::PopStyleColor();
     ui.here(fmt::format("entry {}", i));
-    if (future) ui.help("Undone: click to redo up to here.");
+    ui.help(future ? "Undone: click to redo up to here." : line.c_str());
     if (here && i + 1 == s.log.size()) ImGui::SetScrollHereY(1);
   }
   for (const std::string& line : s.script) {

@@ -126,13 +126,9 @@ void draw_ruler(Ui& ui, const Axis& axis) {
     const std::string text = fmt::format("{:g}", std::round(t * 1e6) / 1e6);
     list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.colours().faint), text.c_str());
   }
-  // Keyframes of the sketch.
-  if (const auto& scene = ui.state.scene; scene && scene->problem) {
-    for (const Keyframe& key : scene->problem->keyframes) {
-      const float x = axis.x(value_of(key.time, *scene->problem, ui.question().constants)), y = at.y + height - 5;
-      const float r = ui.scaled(4);
-      list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.colours().curves[1]));
-    }
+  for (const double key : ui.question().keys) {
+    const float x = axis.x(key), y = at.y + height - 5, r = ui.scaled(4);
+    list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.colours().curves[1]));
   }
   ImGui::SetCursorScreenPos({at.x, at.y + height});
 }
@@ -182,15 +178,6 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
   return result;
 }
 
-std::string scope_line(const Equation& equation, double from, double to, const Problem& problem,
-                       const std::map<std::string, double>& constants) {
-  std::string line = fmt::format("scope {} over [{}, {}]", equation.name, written(from), written(to));
-  if (equation.scope.kind == Scope::Kind::every)
-    line += " every " + written(value_of(equation.scope.step, problem, constants));
-  if (equation.scope.kind == Scope::Kind::count) line += fmt::format(" count {}", equation.scope.count);
-  return line;
-}
-
 void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
   const Question& question = ui.question();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -235,9 +222,15 @@ void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
                           equation.scope.kind == Scope::Kind::knots || equation.scope.kind == Scope::Kind::whole;
     if (interval && !times.empty()) {
       const bool editable = equation.named && equation.scope.kind != Scope::Kind::whole;
-      if (const auto ends = draw_bar(ui, axis, "scope " + equation.name, times.front(), times.back(), colour, editable);
-          ends && ends->second >= ends->first)
-        ui.act(scope_line(equation, ends->first, ends->second, problem, question.constants), Notice::Place::timeline);
+      const double from = times.front(), to = times.back();
+      if (const auto ends = draw_bar(ui, axis, "scope " + equation.name, from, to, colour, editable);
+          ends && ends->second >= ends->first) {
+        // Only the end that was moved becomes a number.
+        const auto moved = [](double now, double before) { return now == before ? std::nullopt : std::optional(now); };
+        ui.act("scope " + equation.name + " " +
+                   scope_text(equation, problem, question.constants, moved(ends->first, from), moved(ends->second, to)),
+               Notice::Place::timeline);
+      }
     }
     for (const double t : times)
       list.AddCircleFilled({axis.x(t), y}, ui.scaled(interval ? 1.5F : 4), packed(colour), 10);

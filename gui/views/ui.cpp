@@ -15,9 +15,12 @@ constexpr float help_delay = 0.6F;  // s
 }  // namespace
 
 const Question& Ui::question() const {
-  if (memory.asked != state.scene) {
+  const std::size_t acts = state.log.size();
+  if (memory.asked != state.scene || memory.asked_present != state.present || memory.asked_acts != acts) {
     memory.asked = state.scene;
-    memory.question = state.scene ? question_of(*state.scene) : Question{};
+    memory.asked_present = state.present;
+    memory.asked_acts = acts;
+    memory.question = question_of(state);
     memory.measured = -1;
   }
   // What the optimizer has is newer than what the text says, and what is being dragged newer still.
@@ -72,6 +75,15 @@ void Ui::notices(Notice::Place place, const std::string& about) {
     if (ImGui::IsItemClicked()) emit(Dismiss{static_cast<int>(i)});
     help("Click to put this message away.");
   }
+}
+
+bool has_problem(const Ui& ui) {
+  const auto& scene = ui.state.scene;
+  if (scene && scene->problem) return true;
+  ImGui::TextWrapped("%s", !scene                       ? "No scene is open."
+                           : scene->diagnostics.empty() ? "The scene is being compiled."
+                                                        : "The scene has mistakes: its text says where.");
+  return false;
 }
 
 std::string written(double number) { return number_text(number); }

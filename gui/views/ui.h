@@ -61,6 +61,8 @@ struct Memory {
   Colours colours;
   float scale = 1;
   std::shared_ptr<const Scene> asked;  // what `question` was worked out from
+  int asked_present = -1;
+  std::size_t asked_acts = 0;
   Question question;
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
@@ -70,12 +72,16 @@ struct Memory {
   CurvesMemory curves;
   EquationsMemory equations;
   FilesMemory files;
+  std::string focused_draft;                    // the keyboard has been given to it
+  bool drag_dropped = false;                    // by Esc: nothing more comes of it until the button is let go
+  double bounds[2]{-1, 1};                      // being typed
   float left = 320, right = 330, bottom = 310;  // pixels at scale 1, of the panels
   int tab_left = -1, tab_right = -1;            // to be chosen in the next frame
   bool welcome = false, shortcuts = false;
   bool quit_asked = false, quit = false;  // the window is to be closed
   bool discard = false;                   // ... and what is not saved is to be thrown away
-  std::string after_saving;               // what to open once the person has decided about unsaved changes
+  bool after_is_example = false;
+  std::string after_saving;  // what to open once the person has decided about unsaved changes
   std::string console, console_by;
   int scroll_to_line = 0;  // in the scene text
   int method = 0;
@@ -104,6 +110,9 @@ struct Ui {
   // The notices of a place, about something or about nothing in particular.
   void notices(Notice::Place place, const std::string& about = {});
 };
+
+// Whether there is something to show; says why not.
+bool has_problem(const Ui& ui);
 
 // A number as the scene language writes it: the shortest that reads back to the same bits.
 std::string written(double number);

@@ -200,5 +200,41 @@ TEST(Window, MakesAStripOfTheMotion) {
           "a refusal");
 }
 
+// Tables show the question as it stands after an act, though the text declares nothing new.
+TEST(Window, TablesFollowTheActs) {
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.settle();
+  const auto equation = [&](const std::string& name) {
+    const auto& all = d.screen().memory().question.equations;
+    return *std::ranges::find(all, name, &gui::Equation::name);
+  };
+  d.click("enable goal");
+  d.settle();
+  EXPECT_FALSE(equation("goal").enabled);
+  d.click("enable goal");
+  d.settle();
+  EXPECT_TRUE(equation("goal").enabled);
+  act(d.hub(), "weight calm = 0.5");
+  act(d.hub(), "scope held over [0, 0.9] every 0.1");
+  act(d.hub(), "bound arm.elbow in [-3, 3]");
+  act(d.hub(), "window [0.2, 1.4] of arm.elbow, arm.wrist");
+  d.frame(3);
+  EXPECT_EQ(equation("calm").weight, 0.5);
+  EXPECT_TRUE(equation("held").rescoped);
+  const gui::Question& question = d.screen().memory().question;
+  EXPECT_EQ(question.window, (std::pair{0.2, 1.4}));
+  EXPECT_EQ(std::ranges::count(question.dofs, true, &gui::Freedom::in_window), 2);
+  EXPECT_EQ(std::ranges::find(question.dofs, "arm.elbow", &gui::Freedom::name)->upper, 3.0);
+  d.click("undo");
+  d.settle();
+  EXPECT_FALSE(d.screen().memory().question.window.has_value());
+  // Only the end of a scope that is dragged becomes a number.
+  d.drag("scope flight from", -40, 0);
+  d.settle();
+  EXPECT_NE(d.state().log.back().text.find(", land] every 0.05"), std::string::npos) << d.state().log.back().text;
+}
+
 }  // namespace
 }  // namespace spacetime::test
