@@ -4,9 +4,9 @@
 //   H+ = H + (1 + gamma'H gamma / delta'gamma) delta delta' / delta'gamma
 //          - (delta gamma'H + H gamma delta') / delta'gamma                                    [LGC94 eq. 21 and 22]
 //
-// a meets the strong Wolfe conditions; no coefficient changes by more than `longest_step`, or `damp`, in one step.  The minimum of
-// F violates each hard constraint by about |multiplier| / (2 w): what the method reaches is that, not the constrained
-// minimum, and it says so.
+// a meets the strong Wolfe conditions; no coefficient changes by more than `longest_step`, or `damp`, in one step.  The
+// minimum of F violates each hard constraint by about |multiplier| / (2 w): what the method reaches is that, not the
+// constrained minimum, and it says so.
 #pragma once
 
 #include "optimizer/method.h"

@@ -113,8 +113,8 @@ TEST(Solve, IsResumedAfterAnInterrupt) {
   // It would go on for long, so that what is interrupted is never the end.
   const std::string problem = run("spacetime-symbolic", {"compile", "-"}, text_of("tests/wire/long_throw.scene")).out;
   const std::string part = scratch("interrupted.motion.json");
-  const Result interrupted =
-      run("spacetime-optimizer", {"solve", "--checkpoint", "--tolerance", "1e-300", "-o", part}, problem, "\n        5 ");
+  const Result interrupted = run("spacetime-optimizer", {"solve", "--checkpoint", "--tolerance", "1e-300", "-o", part},
+                                 problem, "\n        5 ");
   ASSERT_EQ(interrupted.code, 2) << interrupted.err;
   const int done = read_motion(read_text(part)).iterations;
   const std::string all = std::to_string(done + 5);
