@@ -48,11 +48,12 @@ void Filming::perform(const MakeFilm& effect) {
   }
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "spacetime-gui";
   const std::string rate = fmt::format("{}", effect.rate);
+  const std::string poses = fmt::format("{}", effect.strip);
   const std::string theme = effect.dark ? "dark" : "light";
   std::vector<const char*> arguments{self.c_str(),        "render",  motion_file.c_str(), "-o",
                                      effect.file.c_str(), "--theme", theme.c_str()};
   if (effect.strip > 0) {
-    arguments.insert(arguments.end(), {"--strip", "12"});
+    arguments.insert(arguments.end(), {"--strip", poses.c_str()});
   } else {
     arguments.insert(arguments.end(), {"--rate", rate.c_str()});
   }

@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "common/evaluate.h"
+#include "common/bspline.h"
 
 namespace spacetime::gui {
 namespace {
@@ -36,35 +36,31 @@ std::vector<double> inputs_at(const Program& program, const Moment& moment) {
   return out;
 }
 
-// A body's pose program, prepared once.
-class BodyPose {
- public:
-  BodyPose(const Problem& problem, const Body& body)
-      : program_(problem.programs.at(body.program)), outputs_(body.outputs), evaluator_(program_) {}
-
-  glm::dvec3 place(const Moment& moment, const glm::dvec3& p) const {
-    const std::vector<double> inputs = inputs_at(program_, moment);
-    std::vector<const double*> pointers;
-    for (const double& input : inputs) pointers.push_back(&input);
-    const std::vector<std::uint8_t> uniform(inputs.size(), 1);
-    std::vector<double> values(evaluator_.outputs(Depth::values));
-    evaluator_.run(Depth::values, 1, pointers, uniform, values.data(), 1);
-    const auto m = [&](int row, int column) { return values[static_cast<std::size_t>(outputs_[4 * row + column])]; };
-    glm::dvec3 out;
-    for (int row = 0; row < 3; ++row) out[row] = m(row, 0) * p.x + m(row, 1) * p.y + m(row, 2) * p.z + m(row, 3);
-    return out;
-  }
-
- private:
-  const Program& program_;
-  const std::vector<int>& outputs_;
-  Evaluator evaluator_;
-};
-
 }  // namespace
 
-glm::dvec3 place_of(const Problem& problem, const Body& body, const Moment& moment, const glm::dvec3& point) {
-  return BodyPose(problem, body).place(moment, point);
+Moment moment_of(const Motion& motion, const std::map<std::string, double>& constants, double time) {
+  Moment moment;
+  for (const Trajectory& dof : motion.dofs) moment.dofs[dof.name] = value(dof.basis, dof.coefficients, time);
+  moment.constants = constants;
+  moment.parameters.insert(motion.parameters.begin(), motion.parameters.end());
+  moment.time = time;
+  return moment;
+}
+
+BodyPose::BodyPose(const Problem& problem, const Body& body)
+    : program_(problem.programs.at(body.program)), outputs_(body.outputs), evaluator_(program_) {}
+
+glm::dvec3 BodyPose::place(const Moment& moment, const glm::dvec3& p) const {
+  const std::vector<double> inputs = inputs_at(program_, moment);
+  std::vector<const double*> pointers;
+  for (const double& input : inputs) pointers.push_back(&input);
+  const std::vector<std::uint8_t> uniform(inputs.size(), 1);
+  std::vector<double> values(evaluator_.outputs(Depth::values));
+  evaluator_.run(Depth::values, 1, pointers, uniform, values.data(), 1);
+  const auto m = [&](int row, int column) { return values[static_cast<std::size_t>(outputs_[4 * row + column])]; };
+  glm::dvec3 out;
+  for (int row = 0; row < 3; ++row) out[row] = m(row, 0) * p.x + m(row, 1) * p.y + m(row, 2) * p.z + m(row, 3);
+  return out;
 }
 
 std::map<std::string, double> reach(const Problem& problem, const Body& body, Moment moment, const glm::dvec3& point,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/evaluate.h"
+#include "common/motion.h"
 #include "common/problem.h"
 
 namespace spacetime::gui {
@@ -17,8 +19,21 @@ struct Moment {
   double time = 0;
 };
 
-// Where a point of a body (in the body's own axes, metres) is in the world.
-glm::dvec3 place_of(const Problem& problem, const Body& body, const Moment& moment, const glm::dvec3& point);
+// Of a motion at a time (s), with these constants.
+Moment moment_of(const Motion& motion, const std::map<std::string, double>& constants, double time);
+
+// A body's pose, its program prepared once.  The problem has to outlive it.
+class BodyPose {
+ public:
+  BodyPose(const Problem& problem, const Body& body);
+  // Where a point of the body (in its own axes, metres) is in the world.
+  glm::dvec3 place(const Moment& moment, const glm::dvec3& point) const;
+
+ private:
+  const Program& program_;
+  const std::vector<int>& outputs_;
+  Evaluator evaluator_;
+};
 
 // The degrees of freedom of `moment` changed so that the point comes as near to `target` as those in `free` allow;
 // bounds of the degrees of freedom are kept.

@@ -18,7 +18,6 @@ Equation equation_of(const Constraint& constraint) {
   out.line = constraint.place.line;
   out.relation = constraint.relation;
   out.program = constraint.program;
-  out.conditional = constraint.condition.has_value();
   return out;
 }
 
@@ -112,14 +111,14 @@ class Asking {
   }
   void operator()(const Damp& damp) {
     for (Freedom& dof : out_.dofs)
-      if (is_among(damp.dofs, dof.name)) dof.damping = number(damp.limit);
+      if (is_meant(damp.dofs, dof.name)) dof.damping = number(damp.limit);
   }
   void operator()(const Window& window) {
     out_.window.reset();
     if (window.interval)
       out_.window = {number(window.interval->from).value_or(problem_.start),
                      number(window.interval->to).value_or(problem_.end)};
-    for (Freedom& dof : out_.dofs) dof.in_window = is_among(window.dofs, dof.name);
+    for (Freedom& dof : out_.dofs) dof.in_window = is_meant(window.dofs, dof.name);
   }
   template <class Other>
   void operator()(const Other&) {}
@@ -127,8 +126,9 @@ class Asking {
   Question take() { return std::move(out_); }
 
  private:
-  static bool is_among(const DofNames& names, const std::string& name) {
-    return names.empty() || std::ranges::find(names, name) != names.end();
+  // No names: all of them.
+  static bool is_meant(const DofNames& names, const std::string& name) {
+    return names.empty() || is_among(names, name);
   }
   std::optional<double> number(const Quantity& quantity) const { return value_of(quantity, problem_, out_.constants); }
   Equation* named(const std::string& name) {
@@ -141,6 +141,12 @@ class Asking {
 };
 
 }  // namespace
+
+std::string creature_of(const std::string& name) { return name.substr(0, name.find('.')); }
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
 
 std::optional<double> value_of(const Quantity& quantity, const Problem& problem,
                                const std::map<std::string, double>& constants) {

@@ -24,7 +24,6 @@ struct Equation {
   int line = 0;
   Constraint::Relation relation = Constraint::Relation::equal;
   std::string program;
-  bool conditional = false;
   bool rescoped = false;  // since it was written
 };
 
@@ -42,6 +41,11 @@ struct Question {
   std::map<std::string, double> constants;
   std::vector<double> keys;  // s: keyframes of the sketch, and poses keyed since
 };
+
+// "arm" of "arm.elbow" and of "arm.elbow.force"; names without a dot stand for themselves.
+std::string creature_of(const std::string& name);
+
+bool is_among(const std::vector<std::string>& names, const std::string& name);
 
 // Of the present entry.
 Question question_of(const State& state);

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "common/bspline.h"
+#include "common/sample.h"
 #include "gui/inverse_kinematics.h"
 #include "gui/render/palette.h"
 
@@ -16,9 +16,6 @@ constexpr int trail_points = 160;
 constexpr int ghosts_shown = 5;
 constexpr double met = 1e-6;           // a violation below this is none to the eye
 constexpr double longest_arrow = 0.5;  // m, of the largest force over the whole motion
-
-// "arm" of "arm.elbow"; names without a dot stand for themselves.
-std::string creature_of(const std::string& name) { return name.substr(0, name.rfind('.')); }
 
 void add_trails(const State& state, const Problem& problem, const Figures& figures, const Motion& motion,
                 Picture& picture) {
@@ -34,24 +31,6 @@ void add_trails(const State& state, const Problem& problem, const Figures& figur
     if (std::ranges::find(points, name) != points.end())
       picture.lines.push_back(
           {figures.way(motion, name, times), figures.colour_of_point(name, picture.theme), 2, 0.9F, false});
-}
-
-double between(const std::vector<double>& times, const std::vector<std::vector<double>>& rows, double time) {
-  const auto after = std::ranges::lower_bound(times, time);
-  if (after == times.end()) return rows.back()[0];
-  const auto i = static_cast<std::size_t>(after - times.begin());
-  if (i == 0) return rows[0][0];
-  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
-  return rows[i - 1][0] + share * (rows[i][0] - rows[i - 1][0]);
-}
-
-Moment moment_of(const Motion& motion, const Question& question, double time) {
-  Moment moment;
-  for (const Trajectory& dof : motion.dofs) moment.dofs[dof.name] = value(dof.basis, dof.coefficients, time);
-  moment.constants = question.constants;
-  for (const auto& [name, number] : motion.parameters) moment.parameters[name] = number;
-  moment.time = time;
-  return moment;
 }
 
 // The first body that a degree of freedom moves: the one behind its joint.
@@ -74,15 +53,16 @@ Joint joint_of(const Problem& problem, const Body& body, const Moment& moment, c
   constexpr double difference = 1e-5;
   Moment beside = moment;
   beside.dofs[dof] += difference;
+  const BodyPose pose(problem, body);
   const auto velocity = [&](const glm::dvec3& point) {
-    return (place_of(problem, body, beside, point) - place_of(problem, body, moment, point)) / difference;
+    return (pose.place(beside, point) - pose.place(moment, point)) / difference;
   };
-  const glm::dvec3 origin = place_of(problem, body, moment, glm::dvec3(0)), slide = velocity(glm::dvec3(0));
+  const glm::dvec3 origin = pose.place(moment, glm::dvec3(0)), slide = velocity(glm::dvec3(0));
   glm::dvec3 turn(0);
   for (int k = 0; k < 3; ++k) {
     glm::dvec3 unit(0);
     unit[k] = 1;
-    const glm::dvec3 direction = place_of(problem, body, moment, unit) - origin;
+    const glm::dvec3 direction = pose.place(moment, unit) - origin;
     turn += 0.5 * glm::cross(direction, velocity(unit) - slide);
   }
   Joint joint{origin, slide, glm::length(turn) > 0.5};
@@ -96,7 +76,7 @@ Joint joint_of(const Problem& problem, const Body& body, const Moment& moment, c
 void add_forces(const State& state, const Problem& problem, const Question& question, const Motion& motion,
                 Picture& picture) {
   if (!state.samples || state.samples->times.empty()) return;
-  const Moment moment = moment_of(motion, question, state.playback.time);
+  const Moment moment = moment_of(motion, question.constants, state.playback.time);
   double largest_torque = 1e-9, largest_force = 1e-9;
   struct Found {
     Joint joint;
@@ -111,7 +91,7 @@ void add_forces(const State& state, const Problem& problem, const Question& ques
     double& largest = joint.turns ? largest_torque : largest_force;
     for (const auto& row : samples->second)
       if (std::isfinite(row[0])) largest = std::max(largest, std::abs(row[0]));
-    found.push_back({joint, between(state.samples->times, samples->second, state.playback.time)});
+    found.push_back({joint, between(*state.samples, samples->second, state.playback.time).front()});
   }
   const Colour colour = palette(picture.theme).soft;
   for (const Found& f : found) {

@@ -45,24 +45,11 @@ void Screen::type(const std::string& text) { ImGui::GetIO().AddInputCharactersUT
 void Screen::finish() { glFinish(); }
 
 std::vector<Event> Screen::frame(const State& state, double seconds) {
-  std::vector<Event> events;
   ImGui::GetIO().DeltaTime = static_cast<float>(seconds);
-  if (!styled_ || dark_ != state.dark) {
-    dark_ = state.dark;
-    styled_ = true;
-    memory_.colours = colours_of(dark_);
-    apply(memory_.colours, memory_.scale);
-  }
   ImGui_ImplOpenGL3_NewFrame();
-  ImGui::NewFrame();
-  Ui ui{state, memory_, events};
-  draw_window(ui, *scene_);
-  ImGui::Render();
+  const std::vector<Event> events = draw_frame(state, memory_, *scene_);
   target_.bind();
-  glViewport(0, 0, target_.width(), target_.height());
-  glClearColor(memory_.colours.ground.x, memory_.colours.ground.y, memory_.colours.ground.z, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  paint(memory_, target_.width(), target_.height());
   return events;
 }
 

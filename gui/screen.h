@@ -8,7 +8,7 @@
 #include "gui/render/image.h"
 #include "gui/render/offscreen.h"
 #include "gui/render/target.h"
-#include "gui/views/layout.h"
+#include "gui/views/frame.h"
 
 namespace spacetime::gui {
 
@@ -39,7 +39,6 @@ class Screen {
   Target target_;
   Memory memory_;
   std::unique_ptr<SceneView> scene_;
-  bool dark_ = false, styled_ = false;
 };
 
 }  // namespace spacetime::gui

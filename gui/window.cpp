@@ -12,7 +12,7 @@
 
 #include "common/diagnostic.h"
 #include "gui/views/dialogs.h"
-#include "gui/views/layout.h"
+#include "gui/views/frame.h"
 
 namespace spacetime::gui {
 namespace {
@@ -109,7 +109,6 @@ int run_window(Hub& hub, float scale, bool welcome) {
   memory.fonts = load_fonts(scale);
   memory.welcome = welcome;
   const auto scene = std::make_unique<SceneView>();
-  bool styled = false, dark = false;
   auto before = std::chrono::steady_clock::now();
   int frames_awake = frames_after_change;
   while (!memory.quit) {
@@ -124,32 +123,20 @@ int run_window(Hub& hub, float scale, bool welcome) {
     if (hub.step(std::chrono::duration<double>(now - before).count()) || woken) frames_awake = frames_after_change;
     before = now;
     const State& state = hub.state();
-    if (!styled || dark != state.dark) {
-      styled = true;
-      dark = state.dark;
-      memory.colours = colours_of(dark);
-      apply(memory.colours, scale);
-    }
-    std::vector<Event> events;
-    Ui ui{state, memory, events};
-    if (glfwWindowShouldClose(shell.window) == GLFW_TRUE) {
-      glfwSetWindowShouldClose(shell.window, GLFW_FALSE);
-      leave_for(ui, "");
-    }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     hold_pressed(ImGui::GetIO());
-    ImGui::NewFrame();
-    draw_window(ui, *scene);
-    ImGui::Render();
+    std::vector<Event> events = draw_frame(state, memory, *scene);
     let_go_of_pressed(ImGui::GetIO(), shell.window);
+    if (glfwWindowShouldClose(shell.window) == GLFW_TRUE) {
+      glfwSetWindowShouldClose(shell.window, GLFW_FALSE);
+      Ui ui{state, memory, events};
+      leave_for(ui, "");
+    }
     int width = 0, height = 0;
     glfwGetFramebufferSize(shell.window, &width, &height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glViewport(0, 0, width, height);
-    glClearColor(memory.colours.ground.x, memory.colours.ground.y, memory.colours.ground.z, 1);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    paint(memory, width, height);
     glfwSwapBuffers(shell.window);
     if (!events.empty() || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive()) frames_awake = frames_after_change;
     for (Event& event : events) hub.post(std::move(event));

@@ -9,6 +9,7 @@
 #include "common/bspline.h"
 #include "gui/views/freedoms.h"
 #include "gui/views/plot_frame.h"
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
@@ -90,7 +91,7 @@ std::vector<Curve> curves_of(const Ui& ui) {
   }
   if (!s.curves) return out;
   for (const Trajectory& dof : s.curves->dofs) {
-    if (std::ranges::find(s.selection.dofs, dof.name) == s.selection.dofs.end()) continue;
+    if (!is_among(s.selection.dofs, dof.name)) continue;
     add_dof(ui, dof, false, out);
     if (!s.ghost) continue;
     const auto before = std::ranges::find(s.ghost->dofs, dof.name, &Trajectory::name);
@@ -150,7 +151,7 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   for (const Trajectory& dof : ui.state.curves->dofs) {
-    if (std::ranges::find(ui.state.selection.dofs, dof.name) == ui.state.selection.dofs.end()) continue;
+    if (!is_among(ui.state.selection.dofs, dof.name)) continue;
     const ImU32 colour = packed(colour_of(ui, dof.name), 0.8F);
     if (m.knots) {
       const float y = frame.corner.y + frame.size.y;
@@ -179,8 +180,7 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
   if (ImGui::IsMouseDragging(0, 2)) m.dragged_value = frame.value_at(mouse.y);
   if (!ImGui::IsMouseReleased(0)) return;
   if (ImGui::GetIO().MouseDragMaxDistanceSqr[0] > 4)
-    ui.act(fmt::format("control {} {} = {}", m.dragged, m.dragged_index, written(m.dragged_value)),
-           Notice::Place::timeline);
+    ui.act(control_words(m.dragged, m.dragged_index, m.dragged_value).line, Notice::Place::timeline);
   m.dragged.clear();
   m.dragged_index = -1;
 }
@@ -204,7 +204,7 @@ void draw_tools(Ui& ui) {
     ImGui::Checkbox("controls", &m.controls);
     ui.here("controls");
   }
-  if (ImGui::SmallButton("Fit")) m.from = m.to = m.low = m.high = 0;
+  if (ImGui::SmallButton("Fit")) m.low = m.high = 0;
   ui.help("Shows all of the selected curves. The mouse wheel zooms, dragging with the right button moves.");
   ImGui::PopStyleVar(3);
 }

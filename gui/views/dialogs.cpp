@@ -285,7 +285,7 @@ void go(Ui& ui, const std::string& file, bool example) {
     try {
       ui.emit(OpenText{read_text(file)});
     } catch (const InputError& error) {
-      ui.memory.files.error = error.what();
+      ui.emit(FileFailed{file, error.what()});
     }
   } else {
     ui.emit(Open{file});

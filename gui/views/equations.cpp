@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
@@ -38,10 +41,10 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
   ui.here("draft " + about);
   ImGui::PopFont();
   if (text != ui.state.drafts.at(about)) ui.emit(Draft{about, text});
-  if (entered && !text.empty()) ui.act(prefix + text, place, about);
   if (entered) ui.memory.focused_draft.clear();  // stays where it was typed, in case of a mistake
   ui.notices(place, about);
-  if (ImGui::SmallButton(("Apply##" + about).c_str()) && !text.empty()) ui.act(prefix + text, place, about);
+  const bool applied = ImGui::SmallButton(("Apply##" + about).c_str());
+  if ((entered || applied) && !text.empty()) ui.act(prefix + text, place, about);
   ui.here("apply " + about);
   ImGui::SameLine();
   if (ImGui::SmallButton(("Cancel##" + about).c_str())) ui.emit(Draft{about, std::nullopt});
@@ -80,12 +83,12 @@ void draw_menu(Ui& ui, const Equation& equation) {
   }
   if (ImGui::MenuItem("Edit", nullptr, false, equation.named)) ui.emit(Draft{name, body_of(equation)});
   if (ImGui::MenuItem(equation.enabled ? "Disable" : "Enable", nullptr, false, equation.named))
-    ui.act((equation.enabled ? "disable " : "enable ") + name, place, name);
+    ui.act((equation.enabled ? disable_words(name) : enable_words(name)).line, place, name);
   if (ImGui::MenuItem("Make hard", nullptr, false, equation.named && equation.weight && !equation.objective))
-    ui.act("weight " + name + " = inf", place, name);
+    ui.act(weight_words(name, std::numeric_limits<double>::infinity()).line, place, name);
   if (ImGui::MenuItem("Make soft, weight 1", nullptr, false, equation.named && !equation.weight))
-    ui.act("weight " + name + " = 1", place, name);
-  if (ImGui::MenuItem("Delete", nullptr, false, equation.named)) ui.act("delete " + name, place, name);
+    ui.act(weight_words(name, 1).line, place, name);
+  if (ImGui::MenuItem("Delete", nullptr, false, equation.named)) ui.act(delete_words(name).line, place, name);
   if (ImGui::MenuItem("Show in the scene's text")) ui.memory.scroll_to_line = equation.line;
   ImGui::EndPopup();
 }
@@ -101,7 +104,7 @@ void draw_weight(Ui& ui, const Equation& equation) {
   if (!equation.named) ImGui::BeginDisabled();
   ImGui::InputDouble(("##weight " + equation.name).c_str(), &weight, 0, 0, "%.4g");
   if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight && std::isfinite(weight))
-    ui.act("weight " + equation.name + " = " + written(weight), place, equation.name);
+    ui.act(weight_words(equation.name, weight).line, place, equation.name);
   ui.here("weight " + equation.name);
   if (!equation.named) ImGui::EndDisabled();
   ui.help("How much it counts in the objective.");
@@ -113,7 +116,7 @@ void draw_row(Ui& ui, const Equation& equation) {
   bool enabled = equation.enabled;
   if (!equation.named) ImGui::BeginDisabled();
   if (ImGui::Checkbox(("##on " + equation.name).c_str(), &enabled))
-    ui.act((enabled ? "enable " : "disable ") + equation.name, place, equation.name);
+    ui.act((enabled ? enable_words(equation.name) : disable_words(equation.name)).line, place, equation.name);
   ui.here("enable " + equation.name);
   if (!equation.named) ImGui::EndDisabled();
   ui.help(equation.named ? "Whether it counts."
@@ -171,7 +174,7 @@ void draw_equations(Ui& ui) {
       if (equation.objective != objective) continue;
       if (s.drafts.contains(equation.name)) {
         ImGui::TextDisabled("%s:", equation.name.c_str());
-        draw_draft(ui, equation.name, "replace " + equation.name + ": ", "");
+        draw_draft(ui, equation.name, replace_line(equation.name, ""), "");
       } else {
         ui.notices(place, equation.name);
       }

@@ -6,21 +6,16 @@
 #include <cmath>
 
 #include "common/bspline.h"
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
-
-constexpr Notice::Place place = Notice::Place::status;
 
 void toggle(std::vector<std::string>& names, const std::string& name) {
   if (const auto found = std::ranges::find(names, name); found != names.end())
     names.erase(found);
   else
     names.push_back(name);
-}
-
-bool is_among(const std::vector<std::string>& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
 }
 
 // Bounds are typed as two numbers; both are needed, since the language has no half-open bound.
@@ -34,7 +29,7 @@ void draw_bounds(Ui& ui, const Freedom& dof) {
   ImGui::InputScalarN("##ends", ImGuiDataType_Double, ends, 2, nullptr, nullptr, "%.4g");
   ImGui::SameLine();
   if (ImGui::Button("Bound") && std::isfinite(ends[0]) && std::isfinite(ends[1])) {
-    ui.act(fmt::format("bound {} in [{}, {}]", dof.name, written(ends[0]), written(ends[1])), place);
+    ui.act(bound_words(dof.name, ends[0], ends[1]).line);
     ImGui::CloseCurrentPopup();
   }
 }
@@ -42,14 +37,13 @@ void draw_bounds(Ui& ui, const Freedom& dof) {
 void draw_menu(Ui& ui, const Freedom& dof) {
   if (!ImGui::BeginPopupContextItem(("menu " + dof.name).c_str())) return;
   ImGui::TextDisabled("%s", dof.name.c_str());
-  const std::string of = " of " + dof.name;
-  if (ImGui::MenuItem("Smooth", "filter")) ui.act("filter strength 0.5" + of);
+  if (ImGui::MenuItem("Smooth", "filter")) ui.act(filter_words(0.5, {dof.name}).line);
   ui.help("Damps what is rough in its curve.");
-  if (ImGui::MenuItem("Shake", "shake")) ui.act("shake amplitude 0.1" + of);
+  if (ImGui::MenuItem("Shake", "shake")) ui.act("shake amplitude 0.1 of " + dof.name);
   ui.help("Disturbs its curve, to leave a local minimum.");
-  if (ImGui::MenuItem("Refine", "refine")) ui.act("refine" + of);
+  if (ImGui::MenuItem("Refine", "refine")) ui.act("refine of " + dof.name);
   ui.help("Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
-  if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act("damp 0.1" + of);
+  if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act(damp_words(0.1, {dof.name}).line);
   ImGui::Separator();
   draw_bounds(ui, dof);
   ImGui::EndPopup();
@@ -76,7 +70,7 @@ void draw_expressions(Ui& ui, const Problem& problem) {
   bool open = true;
   for (const Plot& plot : problem.plots) {
     const std::size_t dot = plot.name.find('.');
-    const std::string of = dot == std::string::npos ? "" : plot.name.substr(0, dot);
+    const std::string of = dot == std::string::npos ? "" : creature_of(plot.name);
     if (of != creature) {
       if (!creature.empty() && open) ImGui::TreePop();
       open = of.empty() || ImGui::TreeNode(of.c_str());
@@ -97,16 +91,11 @@ void draw_expressions(Ui& ui, const Problem& problem) {
 
 }  // namespace
 
-std::string of_names(const std::vector<std::string>& dofs) {
-  if (dofs.empty()) return "";
-  return fmt::format(" of {}", fmt::join(dofs, ", "));
-}
-
-std::string window_line(const std::optional<std::pair<double, double>>& interval,
-                        const std::vector<std::string>& dofs) {
-  if (!interval && dofs.empty()) return "window all";
-  if (!interval) return "";  // the caller gives the whole time
-  return fmt::format("window [{}, {}]{}", written(interval->first), written(interval->second), of_names(dofs));
+std::string window_line(const Question& question, const Problem& problem, std::pair<double, double> interval,
+                        std::vector<std::string> dofs) {
+  if (dofs.size() == question.dofs.size()) dofs.clear();
+  const bool always = interval.first <= problem.start && interval.second >= problem.end;
+  return (dofs.empty() && always ? window_all_words() : window_words(interval.first, interval.second, dofs)).line;
 }
 
 ImVec4 colour_of(const Ui& ui, const std::string& name) {
@@ -129,7 +118,7 @@ void draw_freedoms(Ui& ui) {
   const bool narrowed =
       question.window || std::ranges::any_of(question.dofs, [](const Freedom& f) { return !f.in_window; });
   if (!narrowed) ImGui::BeginDisabled();
-  if (ImGui::SmallButton("Free all")) ui.act("window all");
+  if (ImGui::SmallButton("Free all")) ui.act(window_all_words().line);
   ui.here("free all");
   if (!narrowed) ImGui::EndDisabled();
   ui.help("Opens the window: everything moves again at all times.");
@@ -146,11 +135,9 @@ void draw_freedoms(Ui& ui) {
         std::vector<std::string> names;
         for (const Freedom& other : question.dofs)
           if (other.name == dof.name ? in : other.in_window) names.push_back(other.name);
-        const bool all = names.size() == question.dofs.size();
-        auto interval = question.window;
-        if (!all && !interval) interval = {problem.start, problem.end};
+        const auto interval = question.window.value_or(std::pair{problem.start, problem.end});
         // A window has to free something: taking the last one out is not possible.
-        if (!names.empty()) ui.act(window_line(interval, all ? std::vector<std::string>{} : names));
+        if (!names.empty()) ui.act(window_line(question, problem, interval, names));
       }
       ui.here("free " + dof.name);
       ui.help("In the window: the optimiser may change it.");
@@ -171,8 +158,10 @@ void draw_freedoms(Ui& ui) {
       }
       ImGui::TableNextColumn();
       std::string limits;
-      if (dof.lower || dof.upper)
-        limits = fmt::format("[{:.3g}, {:.3g}]", dof.lower.value_or(-1e99), dof.upper.value_or(1e99));
+      const auto end = [](const std::optional<double>& limit) {
+        return limit ? fmt::format("{:.3g}", *limit) : "free";
+      };
+      if (dof.lower || dof.upper) limits = fmt::format("[{}, {}]", end(dof.lower), end(dof.upper));
       if (dof.damping) limits += fmt::format(" d {:.2g}", *dof.damping);
       ImGui::TextDisabled("%s", limits.c_str());
     }

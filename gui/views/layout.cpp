@@ -64,6 +64,7 @@ void panel(const char* name, const Rect& r, const Draw& draw, ImGuiWindowFlags f
 void draw_window(Ui& ui, SceneView& scene) {
   Memory& m = ui.memory;
   m.places.clear();
+  refresh(ui);
   take_keys(ui);
   // A scene with mistakes shows them.
   const bool wrong = ui.state.scene && !ui.state.scene->diagnostics.empty();

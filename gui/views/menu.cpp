@@ -8,6 +8,7 @@
 
 #include "gui/views/dialogs.h"
 #include "gui/views/optimisation.h"
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
@@ -68,10 +69,10 @@ void draw_edit_menu(Ui& ui) {
   if (ImGui::MenuItem("Paste it mirrored", "Ctrl+Shift+V", false, s.copied.has_value())) ui.emit(PastePose{true});
   ImGui::Separator();
   const bool there = s.curves != nullptr;
-  if (ImGui::MenuItem("Smooth all", nullptr, false, there)) ui.act("filter strength 0.5");
+  if (ImGui::MenuItem("Smooth all", nullptr, false, there)) ui.act(filter_words(0.5).line);
   if (ImGui::MenuItem("Shake all", nullptr, false, there)) ui.act("shake amplitude 0.1");
   if (ImGui::MenuItem("Refine all", nullptr, false, there)) ui.act("refine");
-  if (ImGui::MenuItem("Back to the declared start", nullptr, false, there)) ui.act("reset");
+  if (ImGui::MenuItem("Back to the declared start", nullptr, false, there)) ui.act(reset_words().line);
   ImGui::EndMenu();
 }
 
@@ -147,7 +148,8 @@ void draw_toolbar(Ui& ui) {
                                               : "Do what the file asks for (F5): " + s.script.front();
     if (button("Run", "run", can_run(ui), help.c_str(), can_run(ui))) run(ui);
   }
-  if (button("Step", "step", can_run(ui), "One iteration (F10)")) ui.act("iterate 1", Notice::Place::optimisation);
+  if (button("Step", "step", can_run(ui), "One iteration (F10)"))
+    ui.act(iterate_words(1).line, Notice::Place::optimisation);
   ImGui::SameLine(0, ui.scaled(18));
   if (button("Undo", "undo", can_undo(s), "Undo (Ctrl+Z)")) ui.emit(Undo{});
   if (button("Redo", "redo", can_redo(s), "Redo (Ctrl+Y)")) ui.emit(Redo{});
@@ -193,17 +195,14 @@ void draw_status(Ui& ui) {
     ImGui::SameLine();
     if (ImGui::SmallButton("Stop##film")) ui.emit(DropFilm{});
     ui.here("stop film");
-    return;
+    ImGui::SameLine(0, ui.scaled(14));
   }
   bool told = false;
   for (std::size_t i = s.notices.size(); i-- > 0 && !told;) {
     const Notice& notice = s.notices[i];
     if (notice.place != Notice::Place::status) continue;
     told = true;
-    const ImVec4& colour = notice.severity == Severity::error     ? ui.colours().bad
-                           : notice.severity == Severity::warning ? ui.colours().warning
-                                                                  : ui.colours().text;
-    ImGui::TextColored(colour, "%s", notice.text.c_str());
+    ImGui::TextColored(ui.colour(notice.severity), "%s", notice.text.c_str());
     ui.here("notice");
     if (ImGui::IsItemClicked()) ui.emit(Dismiss{static_cast<int>(i)});
     ui.help((notice.text + "\nClick to put this away.").c_str());
@@ -211,7 +210,7 @@ void draw_status(Ui& ui) {
   if (told || !s.motion || (!s.running && s.motion->iterations == 0)) return;
   // The first sentence; the rest is in the panel, and in the help.
   const std::string& message = s.motion->message;
-  ImGui::TextDisabled("%s", s.running ? "Solving" : message.substr(0, message.find(". ", 0)).c_str());
+  ImGui::TextDisabled("%s", s.running ? "Solving" : message.substr(0, message.find(". ")).c_str());
   ui.help(s.motion->message.c_str());
 }
 
@@ -228,7 +227,7 @@ void take_keys(Ui& ui) {
     else if (can_run(ui))
       run(ui);
   }
-  if (pressed(GLFW_KEY_F10) && can_run(ui)) ui.act("iterate 1", Notice::Place::optimisation);
+  if (pressed(GLFW_KEY_F10) && can_run(ui)) ui.act(iterate_words(1).line, Notice::Place::optimisation);
   if (io.KeyCtrl) {
     if (pressed(GLFW_KEY_O)) ui.memory.files.dialog = FilesMemory::Dialog::open;
     if (pressed(GLFW_KEY_E)) ui.memory.welcome = true;

@@ -1,18 +1,16 @@
 #include "gui/views/optimisation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "gui/views/plot_frame.h"
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
 
 constexpr std::array<const char*, 4> methods{"Newton (ours)", "SQP (1992)", "SQP, linear CG (1992)", "BFGS (1994)"};
-constexpr std::array<const char*, 4> clauses{"", " method sqp92", " method sqp92 linear cg", " method bfgs"};
 
 void draw_choices(Ui& ui) {
   Memory& m = ui.memory;
@@ -106,12 +104,12 @@ void draw_terms(Ui& ui) {
 }  // namespace
 
 std::string solve_line(const Memory& m) {
-  std::string line = "solve";
-  line += clauses[static_cast<std::size_t>(m.method)];
-  if (m.iterations > 0) line += fmt::format(" iterations {}", m.iterations);
-  if (m.tolerance != 1e-8) line += " tolerance " + written(m.tolerance);
-  if (m.starts > 1) line += fmt::format(" starts {}", m.starts);
-  return line;
+  Solve solve;
+  solve.method = m.method == 0 ? Solve::Method::newton : m.method == 3 ? Solve::Method::bfgs : Solve::Method::sqp92;
+  solve.linear_cg = m.method == 2;
+  solve.tolerance = m.tolerance;
+  solve.starts = m.starts;
+  return solve_words(solve).line;
 }
 
 void draw_optimisation(Ui& ui) {

@@ -16,7 +16,6 @@ struct PlotFrame {
 
   float x(double value) const { return corner.x + static_cast<float>((value - left) / (right - left)) * size.x; }
   float y(double value) const { return corner.y + static_cast<float>((top - value) / (top - bottom)) * size.y; }
-  double time_at(float pixel) const { return left + (pixel - corner.x) / size.x * (right - left); }
   double value_at(float pixel) const { return top - (pixel - corner.y) / size.y * (top - bottom); }
 };
 

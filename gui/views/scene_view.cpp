@@ -8,7 +8,6 @@
 #include <optional>
 #include <string_view>
 
-#include "common/bspline.h"
 #include "gui/inverse_kinematics.h"
 #include "gui/places.h"
 #include "gui/render/figures.h"
@@ -111,22 +110,14 @@ std::optional<PlaceHandle> draw_places(Ui& ui, const ImVec2& corner, const glm::
 }
 
 Moment shown_moment(const Ui& ui) {
-  Moment moment;
-  const Motion motion = motion_of(ui.state, true);
-  for (const Trajectory& dof : motion.dofs)
-    moment.dofs[dof.name] = value(dof.basis, dof.coefficients, ui.state.playback.time);
-  moment.constants = ui.question().constants;
-  for (const auto& [name, number] : motion.parameters) moment.parameters[name] = number;
-  moment.time = ui.state.playback.time;
-  return moment;
+  return moment_of(motion_of(ui.state, true), ui.question().constants, ui.state.playback.time);
 }
 
 // Degrees of freedom of the body's creature that are in the window.
 std::vector<std::string> movable(const Ui& ui, const Body& body) {
-  const std::string creature = body.name.substr(0, body.name.rfind('.') + 1);
   std::vector<std::string> out;
   for (const Freedom& dof : ui.question().dofs)
-    if (dof.in_window && dof.name.starts_with(creature)) out.push_back(dof.name);
+    if (dof.in_window && creature_of(dof.name) == creature_of(body.name)) out.push_back(dof.name);
   return out;
 }
 
@@ -158,8 +149,8 @@ void pull_place(Ui& ui, const Pull& pull, const glm::vec3& target) {
 void take_hold(Ui& ui, Pull& pull, int body, const Ray& ray) {
   const Problem& problem = *ui.state.scene->problem;
   const Moment moment = shown_moment(ui);
-  const Body& which = problem.bodies[static_cast<std::size_t>(body)];
-  const glm::dvec3 origin = place_of(problem, which, moment, glm::dvec3(0));
+  const BodyPose pose(problem, problem.bodies[static_cast<std::size_t>(body)]);
+  const glm::dvec3 origin = pose.place(moment, glm::dvec3(0));
   const auto hit = meet(ray, glm::vec3(origin), ui.memory.scene.camera);
   if (!hit) return;
   // World to the body's axes: rows of the rotation are what unit vectors become.
@@ -167,7 +158,7 @@ void take_hold(Ui& ui, Pull& pull, int body, const Ray& ray) {
   for (int k = 0; k < 3; ++k) {
     glm::dvec3 unit(0);
     unit[k] = 1;
-    pull.point[k] = glm::dot(place_of(problem, which, moment, unit) - origin, away);
+    pull.point[k] = glm::dot(pose.place(moment, unit) - origin, away);
   }
   pull.what = Pull::What::body;
   pull.body = body;

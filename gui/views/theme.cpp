@@ -1,6 +1,7 @@
 #include "gui/views/theme.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace spacetime::gui {
 namespace {
@@ -40,35 +41,31 @@ Fonts load_fonts(float scale) {
 }
 
 Colours colours_of(bool dark) {
-  Colours p;
-  if (dark) {
-    p.ground = rgb(0x1b1e23);
-    p.panel = rgb(0x23272e);
-    p.raised = rgb(0x30353e);
-    p.line = rgb(0x3a404a);
-    p.text = rgb(0xe4e6ea);
-    p.faint = rgb(0x98a0ad);
-    p.accent = rgb(0x4c9be8);
-    p.good = rgb(0x5fbf87);
-    p.warning = rgb(0xe0a94a);
-    p.bad = rgb(0xef6f6c);
-    p.curves = {rgb(0x56b4e9), rgb(0xe69f00), rgb(0x3cc39a), rgb(0xe58fc0),
-                rgb(0xf0e442), rgb(0xf07b3f), rgb(0x8aa2ff), rgb(0xc8ccd4)};
-  } else {
-    p.ground = rgb(0xe9ebee);
-    p.panel = rgb(0xf7f8f9);
-    p.raised = rgb(0xe3e6ea);
-    p.line = rgb(0xc9ced6);
-    p.text = rgb(0x22262c);
-    p.faint = rgb(0x606975);
-    p.accent = rgb(0x1f6fbf);
-    p.good = rgb(0x21804c);
-    p.warning = rgb(0x9a6500);
-    p.bad = rgb(0xc0322f);
-    p.curves = {rgb(0x0072b2), rgb(0xb87400), rgb(0x00805c), rgb(0xb04f86),
-                rgb(0x857a00), rgb(0xc04a00), rgb(0x4a56c0), rgb(0x555b66)};
-  }
-  return p;
+  if (dark)
+    return {.ground = rgb(0x1b1e23),
+            .panel = rgb(0x23272e),
+            .raised = rgb(0x30353e),
+            .line = rgb(0x3a404a),
+            .text = rgb(0xe4e6ea),
+            .faint = rgb(0x98a0ad),
+            .accent = rgb(0x4c9be8),
+            .good = rgb(0x5fbf87),
+            .warning = rgb(0xe0a94a),
+            .bad = rgb(0xef6f6c),
+            .curves = {rgb(0x56b4e9), rgb(0xe69f00), rgb(0x3cc39a), rgb(0xe58fc0), rgb(0xf0e442), rgb(0xf07b3f),
+                       rgb(0x8aa2ff), rgb(0xc8ccd4)}};
+  return {.ground = rgb(0xe9ebee),
+          .panel = rgb(0xf7f8f9),
+          .raised = rgb(0xe3e6ea),
+          .line = rgb(0xc9ced6),
+          .text = rgb(0x22262c),
+          .faint = rgb(0x606975),
+          .accent = rgb(0x1f6fbf),
+          .good = rgb(0x21804c),
+          .warning = rgb(0x9a6500),
+          .bad = rgb(0xc0322f),
+          .curves = {rgb(0x0072b2), rgb(0xb87400), rgb(0x00805c), rgb(0xb04f86), rgb(0x857a00), rgb(0xc04a00),
+                     rgb(0x4a56c0), rgb(0x555b66)}};
 }
 
 void apply(const Colours& p, float scale) {
@@ -91,43 +88,45 @@ void apply(const Colours& p, float scale) {
     colour.w = alpha;
     return colour;
   };
-  const auto set = [&](ImGuiCol which, const ImVec4& colour) { style.Colors[which] = colour; };
-  set(ImGuiCol_Text, p.text);
-  set(ImGuiCol_TextDisabled, p.faint);
-  set(ImGuiCol_WindowBg, p.ground);
-  set(ImGuiCol_ChildBg, p.panel);
-  set(ImGuiCol_PopupBg, p.panel);
-  set(ImGuiCol_Border, p.line);
-  set(ImGuiCol_FrameBg, p.raised);
-  set(ImGuiCol_FrameBgHovered, with(p.accent, 0.25F));
-  set(ImGuiCol_FrameBgActive, with(p.accent, 0.35F));
-  set(ImGuiCol_MenuBarBg, p.ground);
-  set(ImGuiCol_TitleBg, p.panel);
-  set(ImGuiCol_TitleBgActive, p.panel);
-  set(ImGuiCol_ScrollbarBg, with(p.panel, 0));
-  set(ImGuiCol_ScrollbarGrab, p.line);
-  set(ImGuiCol_ScrollbarGrabHovered, p.faint);
-  set(ImGuiCol_ScrollbarGrabActive, p.faint);
-  set(ImGuiCol_CheckMark, p.accent);
-  set(ImGuiCol_SliderGrab, p.accent);
-  set(ImGuiCol_SliderGrabActive, p.accent);
-  set(ImGuiCol_Button, p.raised);
-  set(ImGuiCol_ButtonHovered, with(p.accent, 0.35F));
-  set(ImGuiCol_ButtonActive, with(p.accent, 0.55F));
-  set(ImGuiCol_Header, with(p.accent, 0.22F));
-  set(ImGuiCol_HeaderHovered, with(p.accent, 0.30F));
-  set(ImGuiCol_HeaderActive, with(p.accent, 0.40F));
-  set(ImGuiCol_Separator, p.line);
-  set(ImGuiCol_Tab, with(p.panel, 0));
-  set(ImGuiCol_TabHovered, with(p.accent, 0.30F));
-  set(ImGuiCol_TabActive, with(p.accent, 0.22F));
-  set(ImGuiCol_TableHeaderBg, p.panel);
-  set(ImGuiCol_TableBorderLight, p.line);
-  set(ImGuiCol_TableBorderStrong, p.line);
-  set(ImGuiCol_TableRowBgAlt, with(p.text, 0.03F));
-  set(ImGuiCol_TextSelectedBg, with(p.accent, 0.35F));
-  set(ImGuiCol_NavHighlight, p.accent);
-  set(ImGuiCol_ModalWindowDimBg, with(p.ground, 0.6F));
+  const std::pair<ImGuiCol, ImVec4> table[]{
+      {ImGuiCol_Text, p.text},
+      {ImGuiCol_TextDisabled, p.faint},
+      {ImGuiCol_WindowBg, p.ground},
+      {ImGuiCol_ChildBg, p.panel},
+      {ImGuiCol_PopupBg, p.panel},
+      {ImGuiCol_Border, p.line},
+      {ImGuiCol_FrameBg, p.raised},
+      {ImGuiCol_FrameBgHovered, with(p.accent, 0.25F)},
+      {ImGuiCol_FrameBgActive, with(p.accent, 0.35F)},
+      {ImGuiCol_MenuBarBg, p.ground},
+      {ImGuiCol_TitleBg, p.panel},
+      {ImGuiCol_TitleBgActive, p.panel},
+      {ImGuiCol_ScrollbarBg, with(p.panel, 0)},
+      {ImGuiCol_ScrollbarGrab, p.line},
+      {ImGuiCol_ScrollbarGrabHovered, p.faint},
+      {ImGuiCol_ScrollbarGrabActive, p.faint},
+      {ImGuiCol_CheckMark, p.accent},
+      {ImGuiCol_SliderGrab, p.accent},
+      {ImGuiCol_SliderGrabActive, p.accent},
+      {ImGuiCol_Button, p.raised},
+      {ImGuiCol_ButtonHovered, with(p.accent, 0.35F)},
+      {ImGuiCol_ButtonActive, with(p.accent, 0.55F)},
+      {ImGuiCol_Header, with(p.accent, 0.22F)},
+      {ImGuiCol_HeaderHovered, with(p.accent, 0.30F)},
+      {ImGuiCol_HeaderActive, with(p.accent, 0.40F)},
+      {ImGuiCol_Separator, p.line},
+      {ImGuiCol_Tab, with(p.panel, 0)},
+      {ImGuiCol_TabHovered, with(p.accent, 0.30F)},
+      {ImGuiCol_TabActive, with(p.accent, 0.22F)},
+      {ImGuiCol_TableHeaderBg, p.panel},
+      {ImGuiCol_TableBorderLight, p.line},
+      {ImGuiCol_TableBorderStrong, p.line},
+      {ImGuiCol_TableRowBgAlt, with(p.text, 0.03F)},
+      {ImGuiCol_TextSelectedBg, with(p.accent, 0.35F)},
+      {ImGuiCol_NavHighlight, p.accent},
+      {ImGuiCol_ModalWindowDimBg, with(p.ground, 0.6F)},
+  };
+  for (const auto& [which, colour] : table) style.Colors[which] = colour;
 }
 
 ImU32 packed(const ImVec4& colour, float opacity) {

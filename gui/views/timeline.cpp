@@ -10,6 +10,7 @@
 #include "gui/views/curves.h"
 #include "gui/views/freedoms.h"
 #include "gui/views/plot_frame.h"
+#include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
@@ -138,8 +139,7 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
                                                   double to, const ImVec4& colour, bool editable) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ui.scaled(12);
-  static std::string dragged;  // one mouse, one drag
-  static double ends[2];
+  auto& [dragged, ends] = ui.memory.bar;
   if (dragged == name) {
     from = ends[0];
     to = ends[1];
@@ -170,8 +170,7 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
       if (end == 1) ends[1] = std::max(ends[0], ends[1]);
     }
     if (ImGui::IsItemDeactivated()) {
-      if (dragged == name && (ends[0] != from || ends[1] != to || ImGui::GetIO().MouseDragMaxDistanceSqr[0] > 1))
-        result = {ends[0], ends[1]};
+      if (dragged == name && ImGui::GetIO().MouseDragMaxDistanceSqr[0] > 1) result = {ends[0], ends[1]};
       dragged.clear();
     }
   }
@@ -189,9 +188,7 @@ void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
     std::vector<std::string> names;
     for (const Freedom& dof : question.dofs)
       if (dof.in_window) names.push_back(dof.name);
-    if (names.size() == question.dofs.size()) names.clear();
-    const bool all = ends->first <= problem.start && ends->second >= problem.end;
-    ui.act(all && names.empty() ? "window all" : window_line(ends, names), Notice::Place::timeline);
+    ui.act(window_line(question, problem, *ends, names), Notice::Place::timeline);
   }
   ImGui::SetCursorScreenPos({at.x, at.y + ui.scaled(16)});
 }
@@ -227,9 +224,9 @@ void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
           ends && ends->second >= ends->first) {
         // Only the end that was moved becomes a number.
         const auto moved = [](double now, double before) { return now == before ? std::nullopt : std::optional(now); };
-        ui.act("scope " + equation.name + " " +
-                   scope_text(equation, problem, question.constants, moved(ends->first, from), moved(ends->second, to)),
-               Notice::Place::timeline);
+        const std::string scope =
+            scope_text(equation, problem, question.constants, moved(ends->first, from), moved(ends->second, to));
+        ui.act(scope_line(equation.name, scope), Notice::Place::timeline);
       }
     }
     for (const double t : times)

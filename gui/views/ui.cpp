@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "gui/words.h"
-
 namespace spacetime::gui {
 namespace {
 
@@ -14,25 +12,24 @@ constexpr float help_delay = 0.6F;  // s
 
 }  // namespace
 
-const Question& Ui::question() const {
-  const std::size_t acts = state.log.size();
-  if (memory.asked != state.scene || memory.asked_present != state.present || memory.asked_acts != acts) {
-    memory.asked = state.scene;
-    memory.asked_present = state.present;
-    memory.asked_acts = acts;
-    memory.question = question_of(state);
-    memory.measured = -1;
+void refresh(Ui& ui) {
+  Memory& m = ui.memory;
+  const State& s = ui.state;
+  if (m.asked != s.scene || m.asked_present != s.present || m.asked_acts != s.log.size()) {
+    m.asked = s.scene;
+    m.asked_present = s.present;
+    m.asked_acts = s.log.size();
+    m.question = question_of(s);
+    m.measured = -1;
   }
   // What the optimizer has is newer than what the text says, and what is being dragged newer still.
-  if (state.curves)
-    for (const auto& [name, value] : state.curves->constants) memory.question.constants[name] = value;
-  if (state.steering)
-    for (const auto& [name, value] : state.steering->constants) memory.question.constants[name] = value;
-  return memory.question;
+  if (s.curves)
+    for (const auto& [name, value] : s.curves->constants) m.question.constants[name] = value;
+  if (s.steering)
+    for (const auto& [name, value] : s.steering->constants) m.question.constants[name] = value;
 }
 
 const Residuals& Ui::residuals() const {
-  question();
   if (memory.measured != state.revision || memory.residuals.size() != memory.question.equations.size()) {
     memory.measured = state.revision;
     memory.residuals.assign(memory.question.equations.size(), {});
@@ -40,6 +37,12 @@ const Residuals& Ui::residuals() const {
       memory.residuals = residuals_of(memory.question, *state.scene->problem, *state.curves);
   }
   return memory.residuals;
+}
+
+const ImVec4& Ui::colour(Severity severity) const {
+  return severity == Severity::error     ? colours().bad
+         : severity == Severity::warning ? colours().warning
+                                         : colours().faint;
 }
 
 void Ui::here(const std::string& name) {
@@ -66,10 +69,7 @@ void Ui::notices(Notice::Place place, const std::string& about) {
     if (notice.place != place || notice.about != about) continue;
     // How the last run ended stands in the panel already.
     if (place == Notice::Place::optimisation && state.motion && notice.text == state.motion->message) continue;
-    const ImVec4& colour = notice.severity == Severity::error     ? colours().bad
-                           : notice.severity == Severity::warning ? colours().warning
-                                                                  : colours().faint;
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour(notice.severity));
     ImGui::TextWrapped("%s", notice.text.c_str());
     ImGui::PopStyleColor();
     if (ImGui::IsItemClicked()) emit(Dismiss{static_cast<int>(i)});
@@ -85,8 +85,6 @@ bool has_problem(const Ui& ui) {
                                                         : "The scene has mistakes: its text says where.");
   return false;
 }
-
-std::string written(double number) { return number_text(number); }
 
 std::string shown(double number) {
   if (!std::isfinite(number)) return "no number";

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,6 @@ struct Rect {
 };
 
 struct CurvesMemory {
-  double from = 0, to = 0;   // s, shown; equal: all
   double low = 0, high = 0;  // shown; equal: fitted
   bool derivative[3]{true, false, false};
   bool controls = true, knots = true;
@@ -41,24 +41,22 @@ struct SceneMemory {
   bool framed = false;                      // the camera has been put in front of the scene
   std::shared_ptr<const Scene> framed_for;  // as it was opened
   bool trails = true, ghosts = true, forces = false, marks = true;
-  bool follow_plane = true;  // drag within the picture's plane
-  std::string dragging;      // a place or a body's point
 };
 
-struct EquationsMemory {
-  std::string filter;
-  std::string weight_of;
+struct BarMemory {
+  std::string dragged;   // the bar of which an end is held; one mouse, one drag
+  double ends[2]{0, 0};  // s, of it
 };
 
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
-  std::string error;
 };
 
 struct Memory {
   Fonts fonts;
   Colours colours;
+  std::optional<bool> dark;  // the theme that `colours` and ImGui have been given
   float scale = 1;
   std::shared_ptr<const Scene> asked;  // what `question` was worked out from
   int asked_present = -1;
@@ -70,7 +68,7 @@ struct Memory {
   std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
   SceneMemory scene;
   CurvesMemory curves;
-  EquationsMemory equations;
+  BarMemory bar;
   FilesMemory files;
   std::string focused_draft;                    // the keyboard has been given to it
   bool drag_dropped = false;                    // by Esc: nothing more comes of it until the button is let go
@@ -86,7 +84,7 @@ struct Memory {
   int scroll_to_line = 0;  // in the scene text
   int method = 0;
   double tolerance = 1e-8;
-  int starts = 1, iterations = 0;
+  int starts = 1;
 };
 
 struct Ui {
@@ -99,8 +97,9 @@ struct Ui {
     emit(Act{std::move(line), place, std::move(about)});
   }
   const Colours& colours() const { return memory.colours; }
-  const Question& question() const;    // of the scene shown
-  const Residuals& residuals() const;  // of its equations, on the curves shown
+  const Question& question() const { return memory.question; }  // of the scene shown
+  const Residuals& residuals() const;                           // of its equations, on the curves shown
+  const ImVec4& colour(Severity severity) const;
   float scaled(float pixels) const { return pixels * memory.scale; }
 
   // Remembers where the last item is, so that it can be found by name.
@@ -111,11 +110,12 @@ struct Ui {
   void notices(Notice::Place place, const std::string& about = {});
 };
 
+// Brings the memory up to the state, once a frame.
+void refresh(Ui& ui);
+
 // Whether there is something to show; says why not.
 bool has_problem(const Ui& ui);
 
-// A number as the scene language writes it: the shortest that reads back to the same bits.
-std::string written(double number);
 // A number for people: four significant digits.
 std::string shown(double number);
 
