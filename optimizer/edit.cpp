@@ -100,6 +100,42 @@ void apply(Edited& edited, const Bound& bound) {
   dof.upper = bound.upper;
 }
 
+bool apply_edit(Edited& edited, const Action& action) {
+  const auto apply_to = [&](const auto& edit) {
+    if constexpr (requires { apply(edited, edit); }) {
+      apply(edited, edit);
+      return true;
+    }
+    return false;
+  };
+  return std::visit(apply_to, action);
+}
+
+bool apply_where_it_fits(Edited& edited, const Action& action) {
+  if (const auto* replace = std::get_if<Replace>(&action)) {
+    const auto fits = [&](const auto& list) {
+      return static_cast<std::size_t>(replace->with) < list.size() && list[replace->with].replacement &&
+             list[replace->with].name == replace->name;
+    };
+    if (!fits(edited.problem.constraints) && !fits(edited.problem.objective)) return false;
+  }
+  try {
+    return apply_edit(edited, action);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool replaces(const Action& edit, const Action& before) {
+  if (edit.index() != before.index()) return false;
+  if (const auto* set = std::get_if<SetConstant>(&edit)) {
+    return set->constant == std::get<SetConstant>(before).constant && set->value.program.empty();
+  }
+  if (const auto* weight = std::get_if<SetWeight>(&edit)) return weight->name == std::get<SetWeight>(before).name;
+  if (const auto* bound = std::get_if<Bound>(&edit)) return bound->dof == std::get<Bound>(before).dof;
+  return false;
+}
+
 Problem in_effect(const Edited& edited, int action) {
   Problem problem = edited.problem;
   const auto out = [&](const auto& s) { return s.replacement || s.since > action || edited.disabled.contains(s.name); };

@@ -103,6 +103,10 @@ Outcome outcome_of(StepResult result, const Transcription& t, const Layout& layo
   return {Status::stopped, ""};
 }
 
+std::string remark_of(int pivoted) {
+  return pivoted > 0 ? fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted) : "";
+}
+
 void measure(const Transcription& t, std::span<const double> x, const Values& values, Motion& motion) {
   const Problem& problem = *t.problem;
   motion.objective = values.objective;

@@ -24,6 +24,9 @@ std::string worst_of(const std::vector<Violation>& all);
 Outcome outcome_of(StepResult result, const Transcription& transcription, const Layout& layout,
                    const NewtonState& state, double tolerance);
 
+// What a motion's message has at its end where that many steps needed a pivoted solve.
+std::string remark_of(int pivoted);
+
 // Fills the measures of a motion: objective, terms, violations.
 void measure(const Transcription& transcription, std::span<const double> x, const Values& values, Motion& motion);
 

@@ -4,36 +4,16 @@
 
 #include <algorithm>
 #include <limits>
-#include <type_traits>
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
 #include "optimizer/carry.h"
 #include "optimizer/refine.h"
-#include "optimizer/resume.h"
-#include "optimizer/sketch.h"
-#include "optimizer/window.h"
 
 namespace spacetime::optimizer {
 namespace {
 
 [[noreturn]] void not_built(std::string_view what) { throw InputError(fmt::format("{} is not built yet", what)); }
-
-// Where a problem starts: its keyframes and declared values, or a motion as far as it goes.
-std::vector<double> start_of(const Problem& problem, const Transcription& t, const Motion* from) {
-  auto x = from ? sketch_from(problem, t.constants, *from) : sketch(problem, t.constants);
-  x.resize(t.unknowns(), 0.0);
-  for (std::size_t k = 0; k < problem.parameters.size(); ++k) {
-    const Parameter& parameter = problem.parameters[k];
-    double& p = x[t.first_parameter() + k];
-    p = evaluate(problem, t.constants, parameter.start, "the start of " + parameter.name);
-    if (!from) continue;
-    for (const auto& [name, value] : from->parameters) {
-      if (name == parameter.name) p = value;
-    }
-  }
-  return x;
-}
 
 // The problem's bodies with what gives their poses and sizes.  A pose made of functionals is left out: its motion's
 // document has none.
@@ -49,49 +29,6 @@ void add_bodies(const Problem& problem, Motion& motion) {
   }
 }
 
-// Whether an edit leaves nothing of the one before it, so that a value that is dragged is kept once.
-template <class Edit>
-bool replaces(const Edit& edit, const Action& before) {
-  const Edit* other = std::get_if<Edit>(&before);
-  if (!other) return false;
-  if constexpr (std::is_same_v<Edit, SetConstant>)
-    return edit.constant == other->constant && edit.value.program.empty();
-  if constexpr (std::is_same_v<Edit, SetWeight>) return edit.name == other->name;
-  if constexpr (std::is_same_v<Edit, Bound>) return edit.dof == other->dof;
-  return false;
-}
-
-// Performs an edit on a problem that need not be the one it was made for; false where it makes no sense there.
-bool performed(Edited& edited, const Action& action) {
-  const auto perform = [&](const auto& edit) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(edit)>, Replace>) {
-      const auto fits = [&](const auto& list) {
-        return static_cast<std::size_t>(edit.with) < list.size() && list[edit.with].replacement &&
-               list[edit.with].name == edit.name;
-      };
-      if (!fits(edited.problem.constraints) && !fits(edited.problem.objective)) return false;
-    }
-    if constexpr (requires { apply(edited, edit); }) {
-      apply(edited, edit);
-      return true;
-    }
-    return false;
-  };
-  try {
-    return std::visit(perform, action);
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
-Curves curves_of(const Transcription& whole, const std::vector<double>& x) {
-  Curves curves;
-  for (int dof = 0; dof < whole.dofs(); ++dof) {
-    curves.emplace_back(x.begin() + whole.first[dof], x.begin() + whole.first[dof + 1]);
-  }
-  return curves;
-}
-
 // Whether two problems differ in nothing that iterations depend on.
 bool same_to_iterate(const Problem& a, const Problem& b) {
   return a.start == b.start && a.end == b.end && a.constants == b.constants && a.parameters == b.parameters &&
@@ -99,47 +36,10 @@ bool same_to_iterate(const Problem& a, const Problem& b) {
          a.objective == b.objective;
 }
 
-// What a motion's message has at its end.
-std::string remark_of(int pivoted) {
-  return pivoted > 0 ? fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted) : "";
-}
-
 }  // namespace
 
 bool is_edit(const Action& action) {
   return !std::holds_alternative<Solve>(action) && !std::holds_alternative<Iterate>(action);
-}
-
-Session::Numerics::Numerics(Problem p, const Setting& setting)
-    : problem(std::move(p)),
-      whole(transcribe(problem)),
-      freedom(within(problem, whole.constants, setting.window)),
-      part(freedom.whole ? std::nullopt : std::optional(transcribe(problem, freedom))),
-      layout(arrange(t())),
-      newton(t(), layout) {
-  Transcription& iterated = part ? *part : whole;
-  for (int dof = 0; dof < iterated.dofs(); ++dof) {
-    const auto limit = setting.damping.find(problem.dofs[dof].name);
-    if (limit == setting.damping.end()) continue;
-    std::fill_n(iterated.most_change.begin() + iterated.first[dof], iterated.first[dof + 1] - iterated.first[dof],
-                limit->second);
-  }
-}
-
-std::vector<double> Session::Numerics::open(std::vector<double>& x) {
-  if (!part) return x;
-  Workspace workspace;
-  settle_functionals(whole, x, workspace);
-  settle_elsewhere(whole, *part, x);
-  return taken(whole, *part, x);
-}
-
-void Session::Numerics::close(const std::vector<double>& own, std::vector<double>& x) const {
-  if (part) {
-    put_back(whole, *part, own, x);
-  } else {
-    x = own;
-  }
 }
 
 Session::Session(Problem problem, std::optional<Motion> start)
@@ -261,7 +161,7 @@ void Session::update(Problem problem) {
   Edited next{*original, {}};
   std::vector<Action> kept;
   for (const Action& edit : edits_) {
-    if (performed(next, edit)) kept.push_back(edit);
+    if (apply_where_it_fits(next, edit)) kept.push_back(edit);
   }
   for (Dof& dof : next.problem.dofs) {
     const auto declared = std::ranges::find(original_->dofs, dof.name, &Dof::name);
@@ -352,141 +252,6 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
   state_.seconds.factor += seconds.factor;
   judged_ = false;
   other_ = {};
-}
-
-Checkpoint Session::checkpoint() const {
-  const Transcription& t = now_->whole;
-  Checkpoint at;
-  at.declared = declared_;
-  at.edits = edits_;
-  at.window = setting_.window;
-  at.damping = {setting_.damping.begin(), setting_.damping.end()};
-  at.shakes = shakes_;
-  if (start_) at.start = {start_->dofs, start_->parameters};
-  at.judged = judged_;
-  const auto x = unknowns();
-  at.functionals = {x.begin() + t.first_functional(), x.begin() + t.first_parameter()};
-  if (now_->part) at.outside = {objective_outside_, now_->part->elsewhere};
-  at.step = state_.step;
-  at.last_shift = state_.shift_used;
-  at.pivoted = now_->newton.pivoted_solves();
-  at.newton = kept(now_->t(), now_->layout, state_);
-  if (const auto* state = std::get_if<Sqp92State>(&other_)) at.sqp92 = kept(now_->layout, *state);
-  if (const auto* state = std::get_if<BfgsState>(&other_)) {
-    const Eigen::MatrixXd& inverse = state->inverse;
-    refuse_checkpoint(static_cast<int>(inverse.rows()));
-    auto& rows = at.bfgs.emplace().inverse;
-    for (Eigen::Index i = 0; i < inverse.rows(); ++i) {
-      for (Eigen::Index j = 0; j <= i; ++j) rows.push_back(inverse(i, j));
-    }
-  }
-  return at;
-}
-
-Motion Session::moment() const {
-  Motion motion;
-  motion.start = now_->problem.start;
-  motion.end = now_->problem.end;
-  motion.status = outcome_.status;
-  motion.message = outcome_.message;
-  motion.iterations = state_.iterations;
-  motion.dofs = trajectories();
-  motion.parameters = parameters();
-  motion.minima = minima_;
-  motion.checkpoint = checkpoint();
-  return motion;
-}
-
-// All is made before anything is changed: what does not fit is refused on the way.
-void Session::resume(const Motion& motion) {
-  const Checkpoint& at = *motion.checkpoint;
-  Edited edited{*original_, {}};
-  for (std::size_t i = 0; i < at.edits.size(); ++i) {
-    const auto perform = [&](const auto& edit) {
-      if constexpr (requires { apply(edited, edit); }) {
-        apply(edited, edit);
-      } else {
-        throw CheckpointError(fmt::format("/checkpoint/edits/{}", i), "this action does not edit the problem");
-      }
-    };
-    std::visit(perform, at.edits[i]);
-  }
-  std::vector<double> x;
-  require_size("/dofs", motion.dofs.size(), edited.problem.dofs.size());
-  for (std::size_t k = 0; k < motion.dofs.size(); ++k) {
-    Dof& dof = edited.problem.dofs[k];
-    if (dof.name != motion.dofs[k].name) {
-      throw CheckpointError(fmt::format("/dofs/{}/name", k), fmt::format("the problem has '{}' here", dof.name));
-    }
-    dof.basis = motion.dofs[k].basis;
-    require_size(fmt::format("/dofs/{}/coefficients", k), motion.dofs[k].coefficients.size(), dof.basis.size());
-    x.insert(x.end(), motion.dofs[k].coefficients.begin(), motion.dofs[k].coefficients.end());
-  }
-  Setting setting{at.window, {at.damping.begin(), at.damping.end()}};
-  auto numerics = std::make_shared<Numerics>(in_effect(edited, at.declared), setting);
-  const Transcription& whole = numerics->whole;
-  require_size("/checkpoint/functionals", at.functionals.size(), whole.functionals());
-  x.insert(x.end(), at.functionals.begin(), at.functionals.end());
-  require_size("/parameters", motion.parameters.size(), edited.problem.parameters.size());
-  for (const auto& [name, value] : motion.parameters) x.push_back(value);
-
-  auto own = x;
-  if (auto& part = numerics->part) {
-    if (!at.outside) throw CheckpointError("/checkpoint", "a window needs the member 'outside'");
-    require_size("/checkpoint/outside/functionals", at.outside->functionals.size(), whole.functionals());
-    part->elsewhere = at.outside->functionals;
-    own = taken(whole, *part, x);
-  }
-  const Transcription& t = numerics->t();
-  NewtonState state = brought_back(t, numerics->layout, at.newton, std::move(own));
-  numerics->newton.complete(state);
-  numerics->newton.set_pivoted_solves(at.pivoted);
-  state.iterations = motion.iterations;
-  state.step = at.step;
-  state.shift_used = at.last_shift;
-  decltype(other_) other;
-  const auto bring_back = [&](auto found) {
-    found.step = state.step;
-    found.shift = state.shift_used;
-    state.measures = found.measures;
-    state.condition = StepResult::stepped;
-    other = std::move(found);
-  };
-  if (at.sqp92) {
-    require_size("/checkpoint/sqp92/multipliers", at.sqp92->multipliers.size(), t.rows.size());
-    require_size("/checkpoint/sqp92/weights", at.sqp92->weights.size(), t.rows.size());
-    Sqp92 method(t, numerics->layout, false);
-    bring_back(method.resume(state.x, at.sqp92->multipliers, at.sqp92->weights));
-  } else if (at.bfgs) {
-    Bfgs method(t, numerics->layout);
-    require_size("/checkpoint/bfgs/inverse", at.bfgs->inverse.size(), method.size() * (method.size() + 1) / 2);
-    bring_back(method.resume(state.x, at.bfgs->inverse));
-  }
-
-  edited_ = std::move(edited);
-  edits_ = at.edits;
-  start_.reset();
-  if (at.start) {
-    start_.emplace();
-    start_->dofs = at.start->dofs;
-    start_->parameters = at.start->parameters;
-  }
-  declared_ = at.declared;
-  setting_ = std::move(setting);
-  shakes_ = at.shakes;
-  now_ = std::move(numerics);
-  x_ = std::move(x);
-  objective_outside_ = at.outside ? at.outside->objective : 0;
-  state_ = std::move(state);
-  ++restarts_;
-  other_ = std::move(other);
-  minima_ = motion.minima;
-  outcome_ = {motion.status, motion.message};
-  const std::string remark = remark_of(at.pivoted);
-  if (!remark.empty() && outcome_.message.ends_with(remark)) {
-    outcome_.message.resize(outcome_.message.size() - remark.size());
-  }
-  judged_ = at.judged;
 }
 
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }

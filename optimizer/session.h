@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,9 +15,8 @@
 #include "common/problem.h"
 #include "optimizer/bfgs.h"
 #include "optimizer/edit.h"
-#include "optimizer/newton.h"
+#include "optimizer/numerics.h"
 #include "optimizer/outcome.h"
-#include "optimizer/reshape.h"
 #include "optimizer/sqp92.h"
 
 namespace spacetime::optimizer {
@@ -90,28 +88,6 @@ class Session {
   const Outcome& outcome() const { return outcome_; }
 
  private:
-  // A problem with everything that is made from it.  The parts refer to one another, so it stays where it is.
-  struct Setting {
-    Window window;
-    std::map<std::string, double> damping;  // by degree of freedom: most change of a value in one iteration
-  };
-  struct Numerics {
-    Problem problem;
-    Transcription whole;
-    Freedom freedom;
-    std::optional<Transcription> part;  // in a window
-    Layout layout;
-    Newton newton;
-
-    Numerics(Problem problem, const Setting& setting);
-    Numerics(const Numerics&) = delete;
-    Numerics& operator=(const Numerics&) = delete;
-
-    const Transcription& t() const { return part ? *part : whole; }  // what is iterated
-    // The unknowns of that, out of all; what a window leaves as it is is settled, in x too.  And back.
-    std::vector<double> open(std::vector<double>& x);
-    void close(const std::vector<double>& own, std::vector<double>& x) const;
-  };
   using Clock = std::chrono::steady_clock;
 
   void act(const Solve& solve, const Watch& watch);
