@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool escaped() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
+
 struct Example {
   std::string file, name, about;
 };
@@ -112,7 +114,7 @@ void draw_welcome(Ui& ui) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Close")) {
+  if (ImGui::Button("Close") || escaped()) {
     ui.memory.welcome = false;
     ImGui::CloseCurrentPopup();
   }
@@ -121,7 +123,7 @@ void draw_welcome(Ui& ui) {
 }
 
 void draw_shortcuts(Ui& ui) {
-  static constexpr std::array<std::array<const char*, 2>, 19> all{{
+  static constexpr std::array<std::array<const char*, 2>, 20> all{{
       {"F5", "Run, or stop what runs"},
       {"F10", "One iteration"},
       {"Esc", "Stop; close what is open"},
@@ -140,13 +142,14 @@ void draw_shortcuts(Ui& ui) {
       {"G, T", "Ghosts, trails"},
       {"Ctrl+Q", "Quit"},
       {"F1", "This list"},
-      {"Mouse in the scene", "Left on a figure poses it, on ground turns; middle moves; wheel zooms"},
+      {"Left button in the scene", "On the figure poses it, elsewhere turns the view"},
+      {"Right or middle button, wheel", "Move the view, come closer"},
   }};
   if (ui.memory.shortcuts) ImGui::OpenPopup("Shortcuts");
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal("Shortcuts", &ui.memory.shortcuts, ImGuiWindowFlags_AlwaysAutoResize)) return;
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) {
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, ui.scaled(180));
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, ui.scaled(220));
     ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ui.scaled(400));
     for (const auto& [key, what] : all) {
       ImGui::TableNextRow();
@@ -157,7 +160,7 @@ void draw_shortcuts(Ui& ui) {
     }
     ImGui::EndTable();
   }
-  if (ImGui::Button("Close")) ui.memory.shortcuts = false;
+  if (ImGui::Button("Close") || escaped()) ui.memory.shortcuts = false;
   if (!ui.memory.shortcuts) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
@@ -220,8 +223,7 @@ void draw_film(Ui& ui) {
     const bool strip = m.name.ends_with(".png") && m.name.find('%') == std::string::npos;
     ui.emit(Film{fs::path(m.folder) / m.name, strip ? 12 : 0});
   }
-  if (ImGui::Button("Cancel", {ui.scaled(100), 0}) || pressed ||
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
+  if (ImGui::Button("Cancel", {ui.scaled(100), 0}) || pressed || escaped()) {
     m.dialog = FilesMemory::Dialog::none;
     ImGui::CloseCurrentPopup();
   }
@@ -260,8 +262,7 @@ void draw_files(Ui& ui) {
   ui.here("confirm file");
   if (!possible) ImGui::EndDisabled();
   ImGui::SameLine();
-  const bool cancelled =
-      ImGui::Button("Cancel", {ui.scaled(100), 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  const bool cancelled = ImGui::Button("Cancel", {ui.scaled(100), 0}) || escaped();
   if (possible && (pressed || entered)) {
     if (open)
       leave_for(ui, chosen);

@@ -133,6 +133,23 @@ TEST(Window, DrawsAndObeysWhileDaemonsAreSilent) {
   }
 }
 
+// What is open over the window goes with Esc, as the list of keys says.
+TEST(Window, EscClosesWhatIsOpen) {
+  Driver d(daemons(), 960, 600);
+  d.frame(3);
+  d.click("examples");
+  d.frame(3);
+  EXPECT_TRUE(d.has("close welcome"));
+  d.key(GLFW_KEY_ESCAPE);
+  d.frame(3);
+  EXPECT_FALSE(d.has("close welcome"));
+  EXPECT_FALSE(d.screen().memory().welcome);
+  d.key(GLFW_KEY_F1);
+  EXPECT_TRUE(d.screen().memory().shortcuts);
+  d.key(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(d.screen().memory().shortcuts);
+}
+
 // Where a mistake is told: beside what it is in.
 TEST(Window, MistakesAreToldWhereThePersonLooks) {
   const std::string here = folder("mistakes");
