@@ -38,6 +38,10 @@ class Session:
     def motion(self):
         return self.peer.ask("motion/get")["motion"]
 
+    def checkpoint_after(self, iterations):
+        self.do(action="iterate", iterations=iterations)
+        return self.peer.ask("motion/get", checkpoint=True)["motion"]
+
     def wait_for_progress(self, count=1):
         """Until so many iterates have been shown; the last one."""
         while True:
@@ -241,8 +245,7 @@ class Runs(unittest.TestCase):
             session.do(action="damp", limit=0.1, dofs=["arm.elbow"])
             session.do(action="iterate", iterations=9)
             session.do(action="refine", tolerance=1e-3)  # which spans it halves depends on the motion
-            session.do(action="iterate", iterations=2)
-            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            checkpoint = session.checkpoint_after(2)
             later.load(self.problem)  # and nothing else: edits, window, damping and knots are in the checkpoint
             later.peer.ask("motion/set", motion=checkpoint)
             for one in (session, later):
@@ -257,8 +260,7 @@ class Runs(unittest.TestCase):
         with peer.Daemon("optimizer") as daemon:
             session = Session(daemon)
             session.load(self.problem)
-            session.do(action="iterate", iterations=5)
-            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            checkpoint = session.checkpoint_after(5)
             ends = []
             for _ in range(2):
                 session.do(action="iterate", iterations=6)
@@ -295,8 +297,7 @@ class Runs(unittest.TestCase):
         with peer.Daemon("optimizer") as daemon:
             session = Session(daemon)
             session.load(self.problem)
-            session.do(action="iterate", iterations=2)
-            checkpoint = session.peer.ask("motion/get", checkpoint=True)["motion"]
+            checkpoint = session.checkpoint_after(2)
             other = dict(self.problem, plots=[])
             session.peer.ask("problem/update", problem=other)
             fault = session.peer.answer(session.peer.start("motion/set", motion=checkpoint))["error"]

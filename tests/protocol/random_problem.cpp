@@ -1,107 +1,11 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
-#include "tests/protocol/examples.h"
+#include "tests/protocol/random_parts.h"
 
 namespace spacetime::examples {
-namespace {
-
-int below(std::mt19937& random, int bound) { return static_cast<int>(random() % static_cast<unsigned>(bound)); }
-bool coin(std::mt19937& random) { return below(random, 2) == 0; }
-
-Quantity number(double value) { return {value, {}, 0}; }
-
-std::vector<double> random_knots(std::mt19937& random, double start, double end) {
-  std::vector<double> inner;
-  for (int i = below(random, 6); i > 0; --i)
-    inner.push_back(start + (end - start) * std::ldexp(static_cast<double>(random()), -32));
-  std::sort(inner.begin(), inner.end());
-  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
-  std::erase_if(inner, [&](double t) { return t <= start || t >= end; });
-  std::vector<double> knots(4, start);
-  knots.insert(knots.end(), inner.begin(), inner.end());
-  knots.insert(knots.end(), 4, end);
-  return knots;
-}
-
-// Names that a writer must escape, and names in other scripts, now and then.
-std::string random_name(std::mt19937& random, const char* prefix, std::size_t index) {
-  static const char* const oddities[] = {"", "", "", ".x", " \"q\"", "\\", "/~", "ä€😀"};
-  return prefix + std::to_string(index) + oddities[random() % std::size(oddities)];
-}
-
-Place random_place(std::mt19937& random) { return {below(random, 3), below(random, 3)}; }
-
-}  // namespace
-
-double random_number(std::mt19937& random) {
-  using Limits = std::numeric_limits<double>;
-  switch (below(random, 10)) {
-    case 0:
-      return coin(random) ? 0.0 : -0.0;
-    case 1:
-      return coin(random) ? Limits::denorm_min() : -Limits::min() / 3;
-    case 2:
-      return coin(random) ? Limits::max() : 1e308;
-    case 3:
-      return below(random, 2000) - 1000;
-    case 4:
-      return std::ldexp(below(random, 1000), below(random, 80));  // integers, most beyond 64 bits
-    case 5:
-      return below(random, 2000) / 100.0;
-    default:
-      break;
-  }
-  for (;;) {
-    const auto bits = std::uint64_t{random()} << 32 | random();
-    if (const auto value = std::bit_cast<double>(bits); std::isfinite(value)) return value;
-  }
-}
-
-Program random_program(std::mt19937& random, std::vector<Input> inputs, int operations) {
-  Program program;
-  std::vector<int> unknowns;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (is_unknown(inputs[i].kind)) unknowns.push_back(static_cast<int>(i));
-  }
-  program.inputs = std::move(inputs);
-  const auto values = 1 + below(random, 3);
-  const bool second = !unknowns.empty() && coin(random);
-  if (second) {
-    for (int i = 0; i < values; ++i) program.inputs.push_back(multiplier(i));
-  }
-  program.numbers.push_back(random_number(random));
-  for (int i = below(random, 4); i > 0; --i) program.numbers.push_back(random_number(random));
-  for (int i = 0; i < operations; ++i) {
-    const auto own = program.value_count();
-    const auto op = static_cast<Op>(below(random, op_count));
-    std::int32_t operands[3] = {0, 0, 0};
-    for (int k = 0; k < info(op).arity; ++k) operands[k] = below(random, own);
-    push(program, op, operands[0], operands[1], operands[2]);
-  }
-  program.value_operations = below(random, operations + 1);
-  program.jacobian_operations = program.value_operations + below(random, operations + 1 - program.value_operations);
-  const auto first = program.first_operation();
-  for (int i = 0; i < values; ++i) program.values.push_back(below(random, first + program.value_operations));
-  for (int row = 0; row < values; ++row) {
-    for (const int input : unknowns) {
-      if (coin(random)) program.jacobian.push_back({row, input, below(random, first + program.jacobian_operations)});
-    }
-  }
-  for (const int row : unknowns) {
-    for (const int column : unknowns) {
-      if (second && column <= row && coin(random)) {
-        program.hessian.push_back({row, column, below(random, program.value_count())});
-      }
-    }
-  }
-  return program;
-}
-
 namespace {
 
 class RandomProblem {
@@ -131,7 +35,7 @@ class RandomProblem {
  private:
   int number_below(int bound) { return below(random_, bound); }
   bool toss() { return coin(random_); }
-  Place place() { return random_place(random_); }
+  Place place() { return {number_below(3), number_below(3)}; }
   template <class Each>
   void repeat(int bound, Each each) {
     for (int i = number_below(bound); i > 0; --i) each();
@@ -407,105 +311,8 @@ class RandomProblem {
   int actions_ = 0;           // how many there will be
 };
 
-Checkpoint random_checkpoint(std::mt19937& random, const Motion& motion) {
-  const auto value = [&] { return random_number(random); };
-  const auto size = [&] { return std::abs(random_number(random)); };
-  const auto list = [&](auto element) {
-    std::vector<decltype(element())> result;
-    for (int i = below(random, 4); i > 0; --i) result.push_back(element());
-    return result;
-  };
-  Checkpoint checkpoint;
-  checkpoint.problem = random_name(random, "problem", 1);
-  if (coin(random)) checkpoint.progress = {below(random, 9), below(random, motion.iterations + 1)};
-  checkpoint.declared = below(random, 9);
-  checkpoint.edits = list([&]() -> Action { return Enable{random_name(random, "statement", 1)}; });
-  if (coin(random)) checkpoint.window = {std::nullopt, {random_name(random, "q", 1)}};
-  if (coin(random)) checkpoint.damping = {{random_name(random, "q", 1), 0.5}};
-  checkpoint.shakes = below(random, 9);
-  if (coin(random)) checkpoint.start = {motion.dofs, motion.parameters};
-  checkpoint.judged = coin(random);
-  checkpoint.functionals = list(value);
-  if (coin(random)) checkpoint.outside = {value(), list(value)};
-  checkpoint.step = value();
-  checkpoint.last_shift = value();
-  checkpoint.pivoted = below(random, 9);
-  const auto flag = [&] { return below(random, 2); };
-  checkpoint.newton = {size(),       list(size), list(size),
-                       list(size),   list(size), coin(random),
-                       list(flag),   list(flag), list([&] { return Checkpoint::Newton::Entry{value(), value()}; }),
-                       size(),       size(),     size(),
-                       size(),       size(),     1.5,
-                       coin(random), size(),     below(random, 9),
-                       list(value)};
-  if (coin(random)) {
-    checkpoint.sqp92 = {list(value), list(size)};
-  } else if (coin(random)) {
-    checkpoint.bfgs = {list(value)};
-  }
-  return checkpoint;
-}
-
 }  // namespace
 
 Problem random_problem(std::uint32_t seed) { return RandomProblem(seed).make(); }
-
-Motion random_motion(std::uint32_t seed) {
-  std::mt19937 random(seed);
-  const auto value = [&] { return random_number(random); };
-  Motion motion;
-  motion.start = below(random, 100) - 50.25;
-  motion.end = motion.start + 0.1 + below(random, 100);
-  motion.status = static_cast<Status>(below(random, 4));
-  motion.message = random_name(random, "message ", 1);
-  motion.iterations = below(random, 1000);
-  motion.seconds = {value(), value(), value()};
-  motion.objective = value();
-  motion.violation = value();
-  for (std::size_t i = 0; i < random() % 4; ++i) motion.terms.emplace_back(random_name(random, "term ", i), value());
-  for (std::size_t i = 0; i < random() % 4; ++i) {
-    motion.violations.push_back({random_name(random, "constraint ", i), value(), {}, below(random, 3)});
-    if (coin(random)) motion.violations.back().time = value();
-  }
-  for (std::size_t i = 0; i < random() % 4; ++i) {
-    Trajectory dof{random_name(random, "q", i), {random_knots(random, motion.start, motion.end)}, {}};
-    for (int k = 0; k < dof.basis.size(); ++k) dof.coefficients.push_back(value());
-    motion.dofs.push_back(std::move(dof));
-  }
-  for (std::size_t i = 0; i < random() % 9; ++i) motion.constants.emplace_back(random_name(random, "c", i), value());
-  for (std::size_t i = 0; i < random() % 3; ++i) motion.parameters.emplace_back(random_name(random, "p", i), value());
-  for (int i = below(random, 4); i > 0; --i) {
-    motion.record.push_back({below(random, 1000), value(), value(), value(), value(), value(), value()});
-  }
-  for (int i = below(random, 3); i > 0; --i) motion.minima.push_back({value(), {below(random, 9), 7}, motion.dofs});
-  if (!motion.dofs.empty() && coin(random)) {
-    Problem problem;
-    Program pose;
-    pose.inputs = {dof(motion.dofs.front().name, below(random, 3)), time()};
-    for (int k = 0; k < 12; ++k) pose.values.push_back(below(random, 2));
-    motion.bodies.push_back({Body::Shape::sphere,
-                             random_name(random, "body", 0),
-                             {number(value())},
-                             add(problem, std::move(pose)),
-                             std::vector<int>(12, 3)});
-    motion.programs = std::move(problem.programs);
-  }
-  if (coin(random)) motion.checkpoint = random_checkpoint(random, motion);
-  if (!coin(random)) return motion;
-  Samples samples;
-  for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());
-  const auto table = [&](int columns) {
-    std::vector<std::vector<double>> rows(samples.times.size());
-    for (auto& row : rows) {
-      for (int k = 0; k < columns; ++k) row.push_back(value());
-    }
-    return rows;
-  };
-  for (std::size_t i = 0; i < random() % 3; ++i)
-    samples.values[random_name(random, "plot", i)] = table(below(random, 4));
-  for (std::size_t i = 0; i < random() % 3; ++i) samples.poses[random_name(random, "body", i)] = table(12);
-  motion.samples = std::move(samples);
-  return motion;
-}
 
 }  // namespace spacetime::examples

@@ -1,0 +1,61 @@
+// A value that is dragged: the newest alone is sent, and one act is left of it.
+#include "gui/words.h"
+#include "tests/gui/table.h"
+
+namespace spacetime::gui {
+namespace {
+
+TEST(Update, ADragSendsTheNewestValueAlone) {
+  Table table;
+  table.open();
+  for (int i = 0; i < 500; ++i) {
+    const Words words = set_words("k", i);
+    table.feed(Steer{{words.line, {words.action}}});
+  }
+  EXPECT_LE(table.requests.size(), 4U);  // the first value's round, and samples
+  const Request edit = table.take("action/do"), run = table.take("action/do");
+  table.done(edit, {});
+  table.done(run, {}, true);
+  table.reach(1);
+  EXPECT_EQ(table.take("action/do").params, "\"action\":" + set_words("k", 499).action);
+  const Request second = table.take("action/do");
+  EXPECT_EQ(table.count("action/do"), 0);
+
+  // Let go: from the checkpoint before it, once.
+  table.feed(Steered{true});
+  EXPECT_EQ(table.count("problem/load"), 1);
+  EXPECT_EQ(table.take("motion/set").params, "\"motion\":{\"at\":0}");
+  table.done(second, {}, true);  // too late
+  EXPECT_EQ(table.state.log.size(), 1U);
+  EXPECT_FALSE(table.state.steering);
+}
+
+TEST(Update, UndoDuringTheSolveAfterADragLeavesThatToBeRedone) {
+  Table table;
+  table.open();
+  const Words words = set_words("k", 1);
+  table.feed(Steer{{words.line, {words.action}}});
+  table.feed(Steered{true});
+  table.requests.erase(table.requests.begin(), table.requests.begin() + 3);  // the drag's, which nobody waits for
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  table.compile();
+  table.done(table.take("action/do"), {{words.action, ""}});
+  table.reach(0);
+  table.compile();
+  const Request run = table.take("action/do");
+  const std::string text = text_of(table.state);
+  table.feed(Undo{});
+  EXPECT_EQ(table.state.present, 1);
+  table.done(run, {{R"({"action":"iterate","iterations":3})", "iterate 3"}}, true);
+  table.reach(3);
+  ASSERT_EQ(table.state.log.size(), 3U);
+  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.state.log[1].scene->text, text);
+  EXPECT_EQ(text_of(table.state), text);
+  EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 0);
+  EXPECT_TRUE(can_redo(table.state));
+}
+
+}  // namespace
+}  // namespace spacetime::gui
