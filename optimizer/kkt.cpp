@@ -45,6 +45,7 @@ Kkt::Kkt(const Transcription& t, const Layout& layout)
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
     const bool compliant = t.rows[r].kind == Row::Kind::soft || t.rows[r].at_most;
     role_[layout.of_row[r]] = compliant ? Role::compliant : Role::equation;
+    any_compliant_ |= compliant;
   }
 }
 
@@ -94,8 +95,9 @@ void Kkt::assemble(const Linearisation& linear, const Eigen::VectorXd& diagonal)
     exact_.add(k, k, diagonal[k]);
   }
 
-  const Eigen::VectorXd sizes = row_sizes(linear.jacobian, curvature + pulled_curvature(linear.jacobian, diagonal));
   const Eigen::VectorXd unpulled = row_sizes(linear.jacobian, curvature);
+  const Eigen::VectorXd sizes =
+      any_compliant_ ? row_sizes(linear.jacobian, curvature + pulled_curvature(linear.jacobian, diagonal)) : unpulled;
   vanishing_.resize(exact_.size());
   for (int k = 0; k < exact_.size(); ++k) {
     if (role_[k] == Role::unknown) vanishing_[k] = unknown_regularisation * mean;

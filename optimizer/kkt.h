@@ -73,6 +73,7 @@ class Kkt {
 
   std::vector<Role> role_;
   int rows_ = 0;
+  bool any_compliant_ = false;
 
   BorderedMatrix exact_, regular_;
   Factorisation factorisation_;
