@@ -31,6 +31,21 @@ Places places_of(const Transcription& t, const Layout& layout) {
   return places;
 }
 
+// What a checkpoint keeps as the state has it: copy(of what is kept, of the state) in either direction.
+template <class Kept, class State, class Copy>
+void each_alike(Kept& kept, State& state, const Copy& copy) {
+  copy(kept.mu, state.barrier.mu);
+  copy(kept.outside, state.outside);
+  copy(kept.most_violation, state.most_violation);
+  copy(kept.shift, state.shift);
+  copy(kept.radius, state.radius);
+  copy(kept.restore_from, state.restore_from);
+  copy(kept.damping, state.damping);
+  copy(kept.curved, state.curved);
+  copy(kept.least_sum, state.least_sum);
+  copy(kept.without_progress, state.without_progress);
+}
+
 std::vector<double> taken(const Eigen::VectorXd& from, const std::vector<int>& places) {
   std::vector<double> result;
   for (const int k : places) result.push_back(from[k]);
@@ -66,27 +81,18 @@ void require_size(std::string_view path, std::size_t found, std::size_t expected
 Checkpoint::Newton kept(const Transcription& t, const Layout& layout, const NewtonState& state) {
   const Places places = places_of(t, layout);
   Checkpoint::Newton kept;
+  each_alike(kept, state, [](auto& to, const auto& from) { to = from; });
   const Barrier& barrier = state.barrier;
-  kept.mu = barrier.mu;
   kept.slacks = taken(barrier.slack, places.limits);
   kept.multipliers = taken(barrier.dual, places.limits);
   kept.lower = taken(barrier.lower_dual, places.lower);
   kept.upper = taken(barrier.upper_dual, places.upper);
-  kept.outside = state.outside;
   for (const int r : places.conditional) {
     kept.active.push_back(state.active[r]);
     kept.switches.push_back(state.switches[r]);
   }
   for (const auto& [violation, objective] : state.filter.pairs()) kept.filter.push_back({violation, objective});
   kept.filter_limit = state.filter.most();
-  kept.most_violation = state.most_violation;
-  kept.shift = state.shift;
-  kept.radius = state.radius;
-  kept.restore_from = state.restore_from;
-  kept.damping = state.damping;
-  kept.curved = state.curved;
-  kept.least_sum = state.least_sum;
-  kept.without_progress = state.without_progress;
   if (state.proposed.size() > 0) kept.proposed = taken(state.proposed, places.equations);
   return kept;
 }
@@ -100,12 +106,11 @@ NewtonState brought_back(const Transcription& t, const Layout& layout, const Che
   const Places places = places_of(t, layout);
   NewtonState state;
   state.x = std::move(x);
-  state.barrier.mu = kept.mu;
+  each_alike(kept, state, [](const auto& from, auto& to) { to = from; });
   state.barrier.slack = put(kept.slacks, places.limits, layout, "/checkpoint/newton/slacks");
   state.barrier.dual = put(kept.multipliers, places.limits, layout, "/checkpoint/newton/multipliers");
   state.barrier.lower_dual = put(kept.lower, places.lower, layout, "/checkpoint/newton/lower");
   state.barrier.upper_dual = put(kept.upper, places.upper, layout, "/checkpoint/newton/upper");
-  state.outside = kept.outside;
   require_size("/checkpoint/newton/active", kept.active.size(), places.conditional.size());
   require_size("/checkpoint/newton/switches", kept.switches.size(), places.conditional.size());
   state.active.assign(t.rows.size(), 1);
@@ -117,14 +122,6 @@ NewtonState brought_back(const Transcription& t, const Layout& layout, const Che
   std::vector<Filter::Pair> pairs;
   for (const auto& [violation, objective] : kept.filter) pairs.push_back({violation, objective});
   state.filter = {std::move(pairs), kept.filter_limit};
-  state.most_violation = kept.most_violation;
-  state.shift = kept.shift;
-  state.radius = kept.radius;
-  state.restore_from = kept.restore_from;
-  state.damping = kept.damping;
-  state.curved = kept.curved;
-  state.least_sum = kept.least_sum;
-  state.without_progress = kept.without_progress;
   if (!kept.proposed.empty()) {
     state.proposed = put(kept.proposed, places.equations, layout, "/checkpoint/newton/proposed");
   }
