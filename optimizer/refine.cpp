@@ -64,6 +64,8 @@ void halve(Basis& basis, const std::vector<double>& spans, std::vector<double>& 
   curve = insert_knots(basis, curve, middles);
 }
 
+Refine most_of(const Refine& action) { return action.automatic ? Refine{{}, action.dofs, 1, {}} : action; }
+
 double refined_coefficients(const Problem& problem, const Constants& constants, const Refine& action) {
   const auto [a, b] = span_of(problem, constants, action.interval, "interval");
   const auto named = named_dofs(problem, action.dofs);
@@ -74,7 +76,7 @@ double refined_coefficients(const Problem& problem, const Constants& constants, 
     if (!named[dof]) continue;
     const auto knots = breakpoints(basis);
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-      coefficients += halves(knots[k], knots[k + 1], a, b, action.automatic ? 1 : action.times);
+      coefficients += halves(knots[k], knots[k + 1], a, b, action.times);
     }
   }
   return coefficients;

@@ -13,8 +13,11 @@ namespace spacetime::optimizer {
 // curves do not change.  Throws InputError where the interval does not meet the time or knots would coincide.
 void refine(Problem& problem, const Constants& constants, const Refine& action, Curves& curves);
 
-// How many coefficients there are then, told before anything is made; for an automatic one, how many its trial has,
-// which halves every span of those named.  Throws InputError as `refine` does for the interval.
+// The most that a refinement may halve: an automatic one's trial, every span of the degrees of freedom once.
+Refine most_of(const Refine& action);
+
+// How many coefficients there are then, told before anything is made.  Throws InputError as `refine` does for the
+// interval.
 double refined_coefficients(const Problem& problem, const Constants& constants, const Refine& action);
 
 // Halves spans of one degree of freedom, listed by their first knots' times, which rise.

@@ -132,7 +132,7 @@ class Peer {
     if (const auto fault = validate(asked.action, session.problem())) {
       throw DocumentError("params", "/action" + fault->path, fault->message);
     }
-    if (const auto* refine = std::get_if<Refine>(&asked.action)) require_room(*refine);
+    if (const auto* refine = std::get_if<Refine>(&asked.action)) require_room(most_of(*refine));
     if (is_edit(asked.action)) {
       session.perform(asked.action);
       return write_edit(result, {asked});

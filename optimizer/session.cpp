@@ -7,6 +7,7 @@
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
+#include "optimizer/batch.h"
 #include "optimizer/carry.h"
 #include "optimizer/refine.h"
 
@@ -84,9 +85,7 @@ void Session::act(const Damp& damp, const Watch&) {
 }
 
 void Session::act(const Refine& action, const Watch&) {
-  if (action.automatic) {
-    return refine_where_needed(evaluate(now_->problem, now_->whole.constants, *action.automatic, "refine auto"));
-  }
+  if (action.automatic) return refine_where_needed(action);
   Edited next = edited_;
   Curves finer = curves();
   refine(next.problem, now_->whole.constants, action, finer);
@@ -94,12 +93,13 @@ void Session::act(const Refine& action, const Watch&) {
 }
 
 // Halves the spans on which one step on knots twice as fine moves the motion by more than the tolerance.
-void Session::refine_where_needed(double tolerance) {
+void Session::refine_where_needed(const Refine& action) {
+  const double tolerance = evaluate(now_->problem, now_->whole.constants, *action.automatic, "refine auto");
   if (!(tolerance > 0))
     throw InputError(fmt::format("the tolerance of `refine auto`, {}, must be positive", tolerance));
   Edited halved = edited_;
   Curves before = curves();
-  refine(halved.problem, now_->whole.constants, Refine{}, before);
+  refine(halved.problem, now_->whole.constants, most_of(action), before);
   Numerics finer(in_effect(halved, declared_), setting_);
   auto x = unknowns(before);
   const Carried dual = carried(now_->t(), now_->layout, state_, finer.t());
@@ -110,7 +110,9 @@ void Session::refine_where_needed(double tolerance) {
 
   Edited next = edited_;
   Curves result = curves();
+  const auto named = named_dofs(next.problem, action.dofs);
   for (std::size_t dof = 0; dof < result.size(); ++dof) {
+    if (!named[dof]) continue;
     Basis& basis = next.problem.dofs[dof].basis;
     const auto differ = spans_that_differ(halved.problem.dofs[dof].basis, before[dof], after[dof], tolerance);
     std::vector<double> spans;

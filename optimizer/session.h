@@ -119,7 +119,7 @@ class Session {
   template <class Change, class... Arguments>
   void change_curves(const Change& change, const Arguments&... arguments);  // by a function of reshape.h
   void reshape(const Curves& curves);
-  void refine_where_needed(double tolerance);
+  void refine_where_needed(const Refine& action);
   void resume(const Motion& motion);
   void judge(double tolerance);
   bool reached(double tolerance) const;

@@ -205,6 +205,20 @@ TEST(Refine, AutomaticallyWhereTheMotionWouldChange) {
             19U);
 }
 
+// A message may name degrees of freedom: the others keep their knots, in the trial as well.
+TEST(Refine, AutomaticallyOnlyWhatIsNamed) {
+  Problem problem = problem_of(
+      "time [0, 2]\ntrajectory bspline spans 16\ndof x\ndof y\nminimize integral((x - tanh(40*(t - 0.7)))^2 + "
+      "(y - tanh(40*(t - 0.7)))^2 + 1e-9*(x''^2 + y''^2))\nsolve\nrefine auto tolerance 0.01\n");
+  Refine& action = std::get<Refine>(problem.actions.back().action);
+  EXPECT_EQ(refined_coefficients(problem, evaluate_constants(problem), most_of(action)), 2 * (19 + 16));
+  action.dofs = {"y"};
+  EXPECT_EQ(refined_coefficients(problem, evaluate_constants(problem), most_of(action)), 19 + 19 + 16);
+  const Motion after = run(problem, {});
+  EXPECT_EQ(after.dofs[0].coefficients.size(), 19U);
+  EXPECT_GT(after.dofs[1].coefficients.size(), 19U);
+}
+
 // Scenes are checked by the language; messages may bring anything.
 TEST(Reshape, Refusals) {
   const auto is = [](double number) { return Quantity{number, {}, 0}; };
