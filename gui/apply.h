@@ -40,6 +40,7 @@ void went(State& state, const Compiled& event, Effects& effects);
 // update_act.cpp: acts and the script.
 void apply(State& state, const Act& event, Effects& effects);
 void apply(State& state, const RunScript& event, Effects& effects);
+void take_from_script(State& state);  // its first line, which is in the text now
 void begin_task(State& state, Effects& effects);
 void compiled_task(State& state, const Compiled& event, Effects& effects);
 void compiled_base(State& state, const Compiled& event);
@@ -85,8 +86,8 @@ void apply(State& state, const DaemonIs& event, Effects& effects);
 // update.cpp: what they share.
 int ask(State& state, Effects& effects, Request request, Wanted wanted);
 void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted);
-int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, bool runs = false);
-void ask_checkpoint(State& state, Effects& effects, int entry);
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted);
+void ask_motion(State& state, Effects& effects, Wanted wanted);    // with its checkpoint where that is wanted
 void forget(State& state, Wanted::Kind kind);                      // answers of this kind are nobody's any more
 std::string member(std::string_view name, std::string_view text);  // "name":"text", as JSON
 void notify(State& state, Notice notice);

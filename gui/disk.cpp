@@ -203,13 +203,17 @@ void Disk::look_at_watched() {
   post_(FileChanged{watched_});
 }
 
+void Disk::know(const std::string& file) {
+  read_ = file;
+  read_stamp_ = changed(file);
+  if (file == watched_) known_ = told_ = read_stamp_;
+}
+
 void Disk::act(const ReadFile& effect) {
   try {
     const std::string file = whole_name(effect.file);
     if (!file.ends_with(journal_extension)) {
-      read_ = file;
-      read_stamp_ = changed(file);
-      if (file == watched_) known_ = told_ = read_stamp_;
+      know(file);
       return post_(FileRead{file, read_text(file)});
     }
     const Held held(file);
@@ -231,9 +235,7 @@ void Disk::act(const WriteFile& effect) {
       return post_(FileChanged{effect.file, true});
     }
     write_text(file, effect.text);
-    read_ = file;
-    read_stamp_ = changed(file);
-    if (file == watched_) known_ = told_ = read_stamp_;
+    know(file);
     post_(FileWritten{file, effect.text});
   } catch (const std::exception& error) {
     post_(FileFailed{effect.file, error.what()});

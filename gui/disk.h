@@ -38,7 +38,8 @@ class Disk {
   void run();
   void begin();
   void look_at_watched();
-  void lose_journal();  // it cannot be written any more
+  void know(const std::string& file);  // as it is now
+  void lose_journal();                 // it cannot be written any more
   void act(const ReadFile& effect);
   void act(const WriteFile& effect);
   void act(const WatchFile& effect);

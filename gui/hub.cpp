@@ -77,7 +77,7 @@ protocol::Target daemon_beside(const std::string& name) {
 }
 
 Hub::Hub(HubOptions options) : wake_(std::move(options.wake)) {
-  const auto queue = [this](Event event) { push(std::move(event)); };
+  const auto queue = [this](Event event) { post(std::move(event)); };
   filming_ = std::make_unique<Filming>(queue);
   disk_ = std::make_unique<Disk>(std::move(options.folder), queue);
   symbolic_ = std::make_unique<Client>(std::move(options.symbolic), callbacks(true, queue));
@@ -86,7 +86,7 @@ Hub::Hub(HubOptions options) : wake_(std::move(options.wake)) {
 
 Hub::~Hub() = default;
 
-void Hub::push(Event event) {
+void Hub::post(Event event) {
   {
     const std::lock_guard lock(mutex_);
     // Progress that nobody has taken yet becomes one: the queue does not grow while nobody looks.
@@ -100,8 +100,6 @@ void Hub::push(Event event) {
   }
   if (wake_) wake_();
 }
-
-void Hub::post(Event event) { push(std::move(event)); }
 
 bool Hub::step(double seconds) {
   std::vector<Event> events;
@@ -141,14 +139,14 @@ void Hub::perform(const Request& request) {
   params += "}";
   const int number = request.number;
   const auto reply = [this, number, answer = request.answer, text = request.text](const protocol::Reply& got) {
-    push(answered(number, answer, text, got));
+    post(answered(number, answer, text, got));
   };
   Client::Progress progress;
   const bool runs = request.answer == Request::Answer::run;
   if (runs) {
     progress = [this, number](const Json& value) {
       try {
-        push(iterated_from(number, value));
+        post(iterated_from(number, value));
       } catch (const InputError&) {
         // The next one may be as the protocol says; the outcome will tell.
       }

@@ -33,7 +33,7 @@ class Hub {
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
 
-  void post(Event event);
+  void post(Event event);  // from any thread
   // Takes what has arrived, and lets `seconds` pass.  True where more than the clock may have changed.  Returns at
   // once.
   bool step(double seconds);
@@ -49,7 +49,6 @@ class Hub {
   int optimizer_process() const { return optimizer_->process(); }
 
  private:
-  void push(Event event);  // from any thread
   void apply(const Event& event);
   void perform(const Request& request);
   void perform(const Cancel& cancel);

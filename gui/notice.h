@@ -13,7 +13,7 @@ struct Notice {
   Place place = Place::status;
   Severity severity = Severity::note;
   std::string text;
-  std::string about;     // the equation, constant or degree of freedom it is about; often empty
+  std::string about{};   // the equation, constant or degree of freedom it is about; often empty
   double until = 0;      // State::clock at which it goes; 0: stays until the next act
   bool lasting = false;  // stays whatever is done, until it is dismissed or no more so
 };

@@ -30,7 +30,7 @@ void sample(State& state, Effects& effects) {
   request.method = "sample";
   request.params = "\"times\":" + times.take();
   request.answer = Request::Answer::sampled;
-  work.sample = ask(state, effects, std::move(request), {Wanted::Kind::sample, 0});
+  work.sample = ask(state, effects, std::move(request), {Wanted::Kind::sample});
   work.sampled = state.revision;
   work.next_time = state.clock + sample_pause;
 }
@@ -43,7 +43,7 @@ void advance(State& state, Effects& effects) {
     if (!work.tasks.empty()) {
       const Task task = work.tasks.front();
       work.tasks.clear();
-      notify(state, {task.place, Severity::error, "The scene has mistakes: mend them first.", task.about, 0});
+      notify(state, {task.place, Severity::error, "The scene has mistakes: mend them first.", task.about});
     }
     return;
   }
@@ -54,7 +54,7 @@ void advance(State& state, Effects& effects) {
     if (!work.tasks.empty()) {
       work.tasks.clear();
       notify(state, {Notice::Place::status, Severity::error,
-                     "The optimizer is not where the session is: save it and open it again.", "", 0});
+                     "The optimizer is not where the session is: save it and open it again."});
     }
     return;
   }
@@ -62,7 +62,7 @@ void advance(State& state, Effects& effects) {
     if (state.script.empty()) {
       work.scripting = false;
     } else {
-      work.tasks.push_back({state.script.front(), Notice::Place::status, "", true, false, false});
+      work.tasks.push_back({.line = state.script.front(), .scripted = true});
     }
   }
   if (!work.tasks.empty() && !(work.drag && work.drag->begun)) {
@@ -79,6 +79,7 @@ Effects update(State& state, const Event& event) {
   Effects effects;
   std::visit([&](const auto& which) { apply(state, which, effects); }, event);
   advance(state, effects);
+  state.running = state.work.run != 0;
   state.waiting = static_cast<int>(state.work.tasks.size()) + (state.work.job.task ? 1 : 0);
   return effects;
 }
@@ -101,7 +102,8 @@ void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted
   ask(state, effects, std::move(request), wanted);
 }
 
-int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, bool runs) {
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted) {
+  const bool runs = wanted.kind == Wanted::Kind::run || wanted.kind == Wanted::Kind::steer_run;
   Request request;
   request.method = "action/do";
   request.params = "\"action\":" + action;
@@ -109,12 +111,13 @@ int ask_action(State& state, Effects& effects, const std::string& action, Wanted
   return ask(state, effects, std::move(request), wanted);
 }
 
-void ask_checkpoint(State& state, Effects& effects, int entry) {
+void ask_motion(State& state, Effects& effects, Wanted wanted) {
+  const bool checkpoint = wanted.kind == Wanted::Kind::checkpoint;
   Request request;
   request.method = "motion/get";
-  request.params = "\"checkpoint\":true";
-  request.answer = Request::Answer::checkpoint;
-  ask(state, effects, std::move(request), {Wanted::Kind::checkpoint, entry});
+  if (checkpoint) request.params = "\"checkpoint\":true";
+  request.answer = checkpoint ? Request::Answer::checkpoint : Request::Answer::reached;
+  ask(state, effects, std::move(request), wanted);
 }
 
 void forget(State& state, Wanted::Kind kind) {
@@ -205,7 +208,8 @@ void append(State& state, Entry entry, bool merge, bool seen, Effects& effects) 
   } else {
     effects.push_back(JournalLine{journal_present(state.present)});
   }
-  work.unloaded.empty() ? ask_checkpoint(state, effects, last.number) : load_anew(state, last, effects);
+  if (!work.unloaded.empty()) return load_anew(state, last, effects);
+  ask_motion(state, effects, {Wanted::Kind::checkpoint, last.number});
 }
 
 std::shared_ptr<const Curves> curves_of(const Motion& motion) {

@@ -43,13 +43,17 @@ std::string mistakes(const Scene& compiled, int lines_before) {
   return sentences;
 }
 
-void drop_notices_of_acts(State& state) {
-  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
+// Part of an act may have been done: the optimizer is to be led back to where the present entry is.
+void lose_place(State& state, Effects& effects) {
+  Work& work = state.work;
+  work.at = 0;
+  if (!work.run) return;
+  work.discarded = true;
+  stop_run(state, effects);
 }
 
-// A scripted line is no part of the script any more once it is in the text.
-void take_from_script(State& state, const Task& task) {
-  if (task.scripted && !state.script.empty()) state.script.erase(state.script.begin());
+void drop_notices_of_acts(State& state) {
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
 }
 
 // The statements that the act adds, with their places in its own text.
@@ -70,8 +74,7 @@ void apply(State& state, const Act& event, Effects&) {
   drop_notices_of_acts(state);
   Work& work = state.work;
   if (work.tasks.size() >= most_tasks) {
-    notify(state,
-           {event.place, Severity::error, "So many acts wait already that this one was dropped.", event.about, 0});
+    notify(state, {event.place, Severity::error, "So many acts wait already that this one was dropped.", event.about});
     return;
   }
   work.tasks.push_back({event.line, event.place, event.about});
@@ -87,13 +90,17 @@ void apply(State& state, const RunScript&, Effects&) {
   }
 }
 
+void take_from_script(State& state) {
+  if (!state.script.empty()) state.script.erase(state.script.begin());
+}
+
 void begin_task(State& state, Effects& effects) {
   Work& work = state.work;
   work.job.task = std::move(work.tasks.front());
   work.tasks.pop_front();
   if (!work.job.task->scripted) work.job.task->line = with_line_end(std::move(work.job.task->line));
   work.job.base = state.scene;
-  ask_compile(state, effects, ready_for_more(state.scene->text) + work.job.task->line, {Kind::act_compile, 0});
+  ask_compile(state, effects, ready_for_more(state.scene->text) + work.job.task->line, {Kind::act_compile});
 }
 
 void compiled_base(State& state, const Compiled& event) {
@@ -115,7 +122,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   const std::size_t begin = compiled.text.size() - task.line.size();
   const auto lines = static_cast<int>(std::count(compiled.text.begin(), compiled.text.begin() + begin, '\n'));
   if (!compiled.problem) return refuse_task(state, mistakes(compiled, lines), effects);
-  const auto statements = added_statements(base, compiled, begin, lines);
+  auto statements = added_statements(base, compiled, begin, lines);
   if (statements.empty()) return refuse_task(state, "There is no statement in this line.", effects);
   const bool runs = std::ranges::any_of(statements, iterates);
   if (runs && statements.size() > 1) {  // each has its turn
@@ -128,7 +135,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       work.tasks.push_front(part);
     }
     if (task.scripted) {  // the script has them one by one, too
-      state.script.erase(state.script.begin());
+      take_from_script(state);
       for (std::size_t i = statements.size(); i-- > 0;) state.script.insert(state.script.begin(), work.tasks[i].line);
     }
     return;
@@ -140,19 +147,19 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
     return;
   }
   const bool declares = !same_but_for_actions(*base.problem, *compiled.problem);
-  work.job.declares = declares;
   const bool acts = std::ranges::any_of(statements, &Statement::action);
   if (acts && !work.unloaded.empty()) return refuse_task(state, work.unloaded, effects);
-  if (declares && work.inexact) return ask_compile(state, effects, base.text, {Kind::base, 0});
+  if (declares && work.inexact) return ask_compile(state, effects, base.text, {Kind::base});
 
-  work.job.acting = event.scene;
+  work.job.added = std::move(statements);
+  if (declares) work.job.declared = compiled.problem;
   if (!work.run) cut_redo(state);
   if (declares && work.unloaded.empty()) {
     Request request;
     request.method = "problem/update";
     request.problem = compiled.problem;
     request.answer = Request::Answer::done;
-    ask(state, effects, std::move(request), {Kind::act_do, 0});
+    ask(state, effects, std::move(request), {Kind::act_do});
     ++work.job.unanswered;
     work.job.changed = true;
   }
@@ -160,20 +167,19 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   for (auto i = static_cast<std::size_t>(actions_of(base)); i < actions.size(); ++i) {
     const std::string action = json_of(actions[i].action);
     if (runs) {
-      work.run = ask_action(state, effects, action, {Kind::run, 0}, true);
+      work.run = ask_action(state, effects, action, {Kind::run});
       work.action = action;
       work.line = task.line;
       work.merge = task.merge;
       work.began = state.log[state.present].number;
       work.scripted = task.scripted;
-      state.running = true;
       state.stopping = false;
       state.ghost = state.ghost ? state.ghost : state.curves;
       work.job = {};
       return;
     }
     work.job.asked.push_back(action);
-    ask_action(state, effects, action, {Kind::act_do, 0});
+    ask_action(state, effects, action, {Kind::act_do});
     ++work.job.unanswered;
   }
   if (work.job.unanswered == 0) finish_task(state, effects);
@@ -183,13 +189,9 @@ void drop_acts(State& state, Effects& effects) {
   Work& work = state.work;
   work.tasks.clear();
   work.scripting = false;
-  if (work.job.unanswered > 0) {  // part of it may have been done
+  if (work.job.unanswered > 0) {
     forget(state, Kind::act_do);
-    work.at = 0;
-    if (work.run) {
-      work.discarded = true;
-      stop_run(state, effects);
-    }
+    lose_place(state, effects);
   }
   forget(state, Kind::act_compile);
   forget(state, Kind::base);
@@ -209,51 +211,37 @@ void performed(State& state, const Done& event, Effects& effects) {
 void refuse_task(State& state, const std::string& why, Effects& effects) {
   Work& work = state.work;
   const Task task = *work.job.task;
-  notify(state, {task.place, Severity::error, why, task.about, 0});
+  notify(state, {task.place, Severity::error, why, task.about});
   work.scripting = false;
   if (task.merge || (!work.tasks.empty() && work.tasks.front().merge)) work.tasks.clear();
-  if (work.job.changed) {  // in part: back to where the present entry is
-    work.at = 0;
-    if (work.run) {
-      work.discarded = true;
-      stop_run(state, effects);
-    }
-  }
+  if (work.job.changed) lose_place(state, effects);
   work.job = {};
 }
 
 void finish_task(State& state, Effects& effects) {
   Work& work = state.work;
   const Task task = *work.job.task;
-  const std::shared_ptr<const Scene> base = work.job.base, compiled = work.job.acting;
-  const std::size_t begin = compiled->text.size() - task.line.size();
-  const auto lines = static_cast<int>(std::count(compiled->text.begin(), compiled->text.begin() + begin, '\n'));
-  auto statements = added_statements(*base, *compiled, begin, lines);
   // A checkpoint of the run that goes on may have brought iterations since it was compiled.
   auto scene = state.scene;
-  const bool grown = scene->text != base->text;
+  const bool grown = scene->text != work.job.base->text;
   Entry entry;
   for (const std::string& line : work.job.prelude) {
     scene = appended(*scene, line + "\n", {iterating_statement(line)}, nullptr);
     entry.text += line + "\n";
   }
-  scene = appended(*scene, task.line, statements, work.job.declares ? compiled->problem : nullptr);
+  scene = appended(*scene, task.line, work.job.added, work.job.declared);
   entry.text += trimmed(task.line);
   entry.actions = work.job.asked;
   entry.iterated = !work.job.prelude.empty();
   entry.scene = std::move(scene);
   // Its places are those of a text without the lines of the prelude.
-  work.inexact = work.inexact || (work.job.declares && (entry.iterated || grown));
+  work.inexact = work.inexact || (work.job.declared && (entry.iterated || grown));
   if (!task.about.empty() || task.place == Place::equations) state.drafts.erase(task.about);
-  take_from_script(state, task);
+  if (task.scripted) take_from_script(state);
   if (!work.run) state.ghost = state.curves;
   work.job = {};
   append(state, std::move(entry), task.merge, true, effects);
-  if (!work.run) return;
-  Request look;  // what a set constant is worth
-  look.method = "motion/get";
-  look.answer = Request::Answer::reached;
-  ask(state, effects, std::move(look), {Kind::look, 0});
+  if (work.run) ask_motion(state, effects, {Kind::look});  // what a set constant is worth
 }
 
 }  // namespace spacetime::gui

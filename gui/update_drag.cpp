@@ -47,14 +47,11 @@ void advance_drag(State& state, Effects& effects) {
   }
   drag.begun = true;
   drag.fresh = drag.moved = false;
-  for (const std::string& action : drag.actions) ask_action(state, effects, action, {Kind::steer, 0});
+  for (const std::string& action : drag.actions) ask_action(state, effects, action, {Kind::steer});
   drag.run =
       ask_action(state, effects, "{\"action\":\"solve\",\"iterations\":" + std::to_string(steering_iterations) + "}",
-                 {Kind::steer_run, 0}, true);
-  Request look;
-  look.method = "motion/get";
-  look.answer = Request::Answer::reached;
-  ask(state, effects, std::move(look), {Kind::steer, 0});
+                 {Kind::steer_run});
+  ask_motion(state, effects, {Kind::steer});
   drag.unanswered = static_cast<int>(drag.actions.size()) + 2;
 }
 
@@ -77,8 +74,8 @@ void apply(State& state, const Steered& event, Effects& effects) {
   const bool begun = work.drag->begun;
   leave_drag(state, effects);
   if (event.keep) {
-    work.tasks.push_back({line, Notice::Place::view, ""});
-    work.tasks.push_back({"solve", Notice::Place::view, "", false, true, true});
+    work.tasks.push_back({.line = line, .place = Notice::Place::view});
+    work.tasks.push_back({.line = "solve", .place = Notice::Place::view, .merge = true, .iterates = true});
   } else if (begun) {
     show(state, state.log[state.present]);
   }

@@ -42,7 +42,7 @@ void merge(Curves& curves, const Iterated& event) {
 void end_run(State& state) {
   Work& work = state.work;
   work.run = 0;
-  state.running = state.stopping = work.unseen = work.discarded = false;
+  state.stopping = work.unseen = work.discarded = false;
 }
 
 // One step less on the way to the present entry.
@@ -76,7 +76,7 @@ void finish_run(State& state, const Done& event, Effects& effects) {
     return;
   }
   if (event.status == Status::failed || event.status == Status::infeasible) {
-    notify(state, {Place::optimisation, Severity::warning, event.message, "", 0});
+    notify(state, {Place::optimisation, Severity::warning, event.message});
   }
   const bool as_asked = event.log.size() == 1 && same_action(event.log.front().action, work.action);
   const std::string text = as_asked ? work.line : joined(event.log);
@@ -86,8 +86,9 @@ void finish_run(State& state, const Done& event, Effects& effects) {
     work.scripting = false;
     if (seen) show(state, state.log[state.present]);
     if (seen) {
-      notify(state, {Place::optimisation, Severity::note, "Stopped, and back to the motion before: " + event.message,
-                     "", state.clock + 10});
+      notify(state, {.place = Place::optimisation,
+                     .text = "Stopped, and back to the motion before: " + event.message,
+                     .until = state.clock + 10});
     }
     return;
   }
@@ -106,7 +107,7 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   entry.text = trimmed(text);
   entry.scene = appended(*last.scene, text, statements, nullptr);
   entry.iterated = true;
-  if (work.scripted && !state.script.empty()) state.script.erase(state.script.begin());
+  if (work.scripted) take_from_script(state);
   // Where the person did something else meanwhile, it stays an entry of its own.
   append(state, std::move(entry), work.merge && seen && last.number == work.began, seen, effects);
 }
@@ -223,7 +224,7 @@ void apply(State& state, const Refused& event, Effects& effects) {
   const auto wanted = take(state, event.number);
   if (!wanted) return;
   Work& work = state.work;
-  const auto tell = [&](Place place, const std::string& text) { notify(state, {place, Severity::error, text, "", 0}); };
+  const auto tell = [&](Place place, const std::string& text) { notify(state, {place, Severity::error, text}); };
   switch (wanted->kind) {
     case Kind::open_whole:
     case Kind::open_head: {
@@ -240,7 +241,7 @@ void apply(State& state, const Refused& event, Effects& effects) {
         work.unloaded = event.message;
         forget(state, Kind::checkpoint);
       }
-      return notify(state, {Place::optimisation, Severity::note, event.message, "", 0});
+      return notify(state, {Place::optimisation, Severity::note, event.message});
     case Kind::base:
     case Kind::act_compile:
       if (work.job.task) refuse_task(state, event.message, effects);
@@ -264,7 +265,9 @@ void apply(State& state, const Refused& event, Effects& effects) {
     case Kind::steer:
     case Kind::steer_run:
       if (work.drag) --work.drag->unanswered;
-      return notify(state, {Place::view, Severity::warning, event.message, "", state.clock + 4});
+      return notify(
+          state,
+          {.place = Place::view, .severity = Severity::warning, .text = event.message, .until = state.clock + 4});
     case Kind::sample:
       work.sample = 0;
       work.next_time = state.clock + retry_pause;
@@ -297,7 +300,7 @@ void apply(State& state, const Ask& event, Effects& effects) {
   request.params = member("text", event.text) + "," + member("scene", state.scene->text);
   if (!event.by.empty()) request.params += "," + member("by", event.by);
   request.answer = Request::Answer::answered;
-  line.number = ask(state, effects, std::move(request), {Kind::console, 0});
+  line.number = ask(state, effects, std::move(request), {Kind::console});
   state.console.push_back(std::move(line));
 }
 

@@ -42,7 +42,7 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
 void open_text(State& state, std::string file, std::string text, Effects& effects) {
   begin(state, file, text, effects);
   state.work.opening = text;
-  ask_compile(state, effects, std::move(text), {Kind::open_whole, 0});
+  ask_compile(state, effects, std::move(text), {Kind::open_whole});
 }
 
 void remember(State& state, const std::string& file, Effects& effects) {
@@ -116,7 +116,7 @@ void load(State& state, std::shared_ptr<const Problem> problem, Wanted wanted, E
 void load_anew(State& state, const Entry& entry, Effects& effects) {
   load(state, entry.scene->problem, {Kind::load, entry.number}, effects);
   state.work.at = entry.number;
-  ask_checkpoint(state, effects, entry.number);
+  ask_motion(state, effects, {Kind::checkpoint, entry.number});
 }
 
 void apply(State&, const Open& event, Effects& effects) { effects.push_back(ReadFile{event.file}); }
@@ -125,7 +125,7 @@ void apply(State& state, const OpenText& event, Effects& effects) { open_text(st
 
 void apply(State& state, const Film& event, Effects& effects) {
   if (state.present < 0 || !state.log[state.present].checkpoint)
-    return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet.", "", 0});
+    return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet."});
   state.film = {event.file, ""};
   effects.push_back(
       MakeFilm{event.file, state.log[state.present].checkpoint, state.playback.rate, event.strip, state.dark});
@@ -143,7 +143,7 @@ void apply(State& state, const Filmed& event, Effects&) {
   state.film.reset();
   const bool done = event.what == Filmed::What::done;
   notify(state, {Place::status, done ? Severity::note : Severity::error,
-                 done ? event.file + " is made." : event.file + " could not be made: " + event.text, "", 0});
+                 done ? event.file + " is made." : event.file + " could not be made: " + event.text});
 }
 
 void apply(State& state, const FileRead& event, Effects& effects) {
@@ -152,25 +152,28 @@ void apply(State& state, const FileRead& event, Effects& effects) {
 }
 
 void apply(State& state, const FileFailed& event, Effects&) {
-  notify(state, {Place::status, Severity::error, event.message, event.file, 0, true});
+  notify(state, {.severity = Severity::error, .text = event.message, .about = event.file, .lasting = true});
 }
 
 // A scene with mistakes, or one in which nothing was done, follows its file.
 void apply(State& state, const FileChanged& event, Effects& effects) {
   if (event.refused) {
     state.work.overwrite = event.file;
-    return notify(state, {Place::status, Severity::warning,
-                          "Not saved: '" + event.file +
-                              "' was changed by another program since it was read. Save once more to replace "
-                              "what is there, or save under another name.",
-                          event.file, 0, true});
+    return notify(state, {.severity = Severity::warning,
+                          .text = "Not saved: '" + event.file +
+                                  "' was changed by another program since it was read. Save once more to replace "
+                                  "what is there, or save under another name.",
+                          .about = event.file,
+                          .lasting = true});
   }
   if (event.file != state.file) return;
   if (state.log.size() <= 1 && !state.work.run && !unsaved(state)) {
     effects.push_back(ReadFile{event.file});
   } else {
-    notify(state, {Place::status, Severity::warning,
-                   "The file was changed by another program: open it again to see it.", event.file, 0, true});
+    notify(state, {.severity = Severity::warning,
+                   .text = "The file was changed by another program: open it again to see it.",
+                   .about = event.file,
+                   .lasting = true});
   }
 }
 
@@ -178,7 +181,7 @@ void apply(State& state, const Save& event, Effects& effects) {
   const std::string file = event.file.empty() ? state.file : event.file;
   if (!state.scene) return;
   if (file.empty()) {
-    notify(state, {Place::status, Severity::error, "The scene has no file yet: give it a name.", "", 0});
+    notify(state, {Place::status, Severity::error, "The scene has no file yet: give it a name."});
     return;
   }
   const bool overwrite = std::exchange(state.work.overwrite, {}) == file;
@@ -239,7 +242,7 @@ void opened(State& state, const Compiled& event, const Wanted& wanted, Effects& 
   if (script.empty()) return begin_log(state, event.scene, effects);
   state.scene = event.scene;  // to be looked at meanwhile
   work.script = std::move(script);
-  ask_compile(state, effects, std::move(head), {Kind::open_head, 0});
+  ask_compile(state, effects, std::move(head), {Kind::open_head});
 }
 
 void go(State& state, Effects& effects) {
@@ -262,13 +265,11 @@ void go(State& state, Effects& effects) {
   if (!entry.checkpoint || entry.checkpoint->empty()) return load_anew(state, entry, effects);
   work.going = entry.number;
   load(state, entry.scene->problem, {Kind::go, entry.number}, effects);
-  work.steps = 1;
   Request request;
   request.method = "motion/set";
   request.params = "\"motion\":" + *entry.checkpoint;
-  request.answer = Request::Answer::acknowledged;
   ask(state, effects, std::move(request), {Kind::go, entry.number});
-  ++work.steps;
+  work.steps = 2;
 }
 
 void went(State& state, const Compiled& event, Effects& effects) {

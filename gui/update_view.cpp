@@ -24,8 +24,6 @@ std::string mirrored(std::string name) {
   return name;
 }
 
-void keep_settings(const State& state, Effects& effects) { effects.push_back(KeepSettings{state.dark, state.recent}); }
-
 }  // namespace
 
 void apply(State& state, const DropGhost&, Effects&) { state.ghost = nullptr; }
@@ -80,7 +78,7 @@ void apply(State& state, const Draft& event, Effects&) {
 
 void apply(State& state, const SetTheme& event, Effects& effects) {
   state.dark = event.dark;
-  keep_settings(state, effects);
+  effects.push_back(KeepSettings{state.dark, state.recent});
 }
 
 void apply(State& state, const Dismiss& event, Effects&) {
@@ -111,15 +109,15 @@ void apply(State& state, const DaemonIs& event, Effects&) {
   using Condition = Daemon::Condition;
   if (event.condition == Condition::ready && daemon.condition != Condition::ready && daemon.met) {
     ++daemon.restarts;
-    notify(state, {Place::status, Severity::note, name + " ended and was started again; nothing is lost.", "",
-                   state.clock + note_seconds});
+    notify(state,
+           {.text = name + " ended and was started again; nothing is lost.", .until = state.clock + note_seconds});
   }
   if (event.condition == Condition::lost) {
-    notify(state, {Place::status, Severity::error,
-                   name + " is lost: " + event.why +
-                       ". The motions of the log can be looked at and the scene can be "
-                       "saved; to go on, save it, start the window again and open it.",
-                   "", 0, true});
+    notify(state, {.severity = Severity::error,
+                   .text = name + " is lost: " + event.why +
+                           ". The motions of the log can be looked at and the scene can be "
+                           "saved; to go on, save it, start the window again and open it.",
+                   .lasting = true});
   }
   daemon.met = daemon.met || event.condition == Condition::ready;
   daemon.condition = event.condition;

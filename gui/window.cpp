@@ -141,7 +141,6 @@ int run_window(Hub& hub, float scale, bool welcome) {
     if (!events.empty() || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive()) frames_awake = frames_after_change;
     for (Event& event : events) hub.post(std::move(event));
   }
-  hub.step(0);  // what was asked for last: saving, most often
   hub.close(memory.discard);
   return 0;
 }

@@ -99,12 +99,6 @@ std::string key_line(double time, const std::vector<std::pair<std::string, doubl
   return line;
 }
 
-Words key_words(double time, const std::vector<std::pair<std::string, double>>& keys) {
-  PullKeys pull{quantity(time), {}};
-  for (const auto& [dof, value] : keys) pull.keys.push_back({dof, quantity(value)});
-  return {key_line(time, keys), json_of(pull)};
-}
-
 Words control_words(const std::string& dof, int index, double value) {
   return {"control " + dof + " " + std::to_string(index) + " = " + number_text(value),
           json_of(Control{dof, index, quantity(value)})};

@@ -33,7 +33,6 @@ Words refine_auto_words(double tolerance);
 Words shake_words(double amplitude, int seed, const DofNames& dofs = {});
 Words filter_words(double strength, const DofNames& dofs = {});
 Words damp_words(double limit, const DofNames& dofs = {});
-Words key_words(double time, const std::vector<std::pair<std::string, double>>& keys);
 Words control_words(const std::string& dof, int index, double value);
 Words reset_words();
 Words solve_words(const Solve& solve = {});

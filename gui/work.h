@@ -14,9 +14,14 @@
 
 #include "gui/notice.h"
 
+namespace spacetime {
+struct Problem;
+}
+
 namespace spacetime::gui {
 
 struct Scene;
+struct Statement;
 struct Curves;
 
 // An act that waits for its turn, or has it.
@@ -64,15 +69,15 @@ struct Work {
   // Acting.
   std::deque<Task> tasks;
   struct Job {
-    std::optional<Task> task;             // the one that has its turn
-    std::shared_ptr<const Scene> base;    // the present scene when it was its turn, to which it was compiled
-    std::shared_ptr<const Scene> acting;  // compiled with it
-    std::vector<std::string> asked;       // its actions, as JSON
-    std::vector<std::string> prelude;     // lines that iterate, which came before it
-    int unanswered = 0;                   // of its requests
-    std::string refusal;                  // of one of them
-    bool changed = false;                 // one of them has been answered, or changes the problem
-    bool declares = false;                // the task changes the problem itself
+    std::optional<Task> task;                 // the one that has its turn
+    std::shared_ptr<const Scene> base;        // the present scene when it was its turn, to which it was compiled
+    std::vector<Statement> added;             // its statements, with their places in its own text
+    std::shared_ptr<const Problem> declared;  // with it, where it changes the problem itself
+    std::vector<std::string> asked;           // its actions, as JSON
+    std::vector<std::string> prelude;         // lines that iterate, which came before it
+    int unanswered = 0;                       // of its requests
+    std::string refusal;                      // of one of them
+    bool changed = false;                     // one of them has been answered, or changes the problem
   } job;
   bool scripting = false;  // the script goes on when there is nothing else to do
   bool inexact = false;    // the present scene's problem has places of a slightly different text

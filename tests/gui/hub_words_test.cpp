@@ -38,7 +38,8 @@ TEST(Words, AreReadAsTheActionsTheyArePairedWith) {
     if (round % 5 == 2) solve.method = Solve::Method::sqp92;
     solve.linear_cg = solve.method == Solve::Method::sqp92 && round % 2;
     if (round % 4 == 3) solve.starts = round;
-    const double low = -std::abs(number()), time = 1 + between(random), a = std::abs(number());
+    const double low = -std::abs(number()), time = 1 + between(random), a = std::abs(number()), x = number(),
+                 y = number();
     for (const Words& words : {set_words("k", number()),
                                weight_words("goal", a),
                                weight_words("goal", std::numeric_limits<double>::infinity()),
@@ -58,7 +59,8 @@ TEST(Words, AreReadAsTheActionsTheyArePairedWith) {
                                filter_words(a, {"x", "y"}),
                                damp_words(a),
                                damp_words(a, {"y"}),
-                               key_words(time, {{"x", number()}, {"y", number()}}),
+                               Words{key_line(time, {{"x", x}, {"y", y}}),
+                                     json_of(PullKeys{{time, {}, 0}, {{"x", {x, {}, 0}}, {"y", {y, {}, 0}}}})},
                                control_words("x", 3, number()),
                                reset_words(),
                                solve_words(solve),
