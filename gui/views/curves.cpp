@@ -26,7 +26,8 @@ struct Curve {
 constexpr int samples_drawn = 400;
 
 void add_dof(const Ui& ui, const Trajectory& dof, bool ghost, std::vector<Curve>& out) {
-  const double start = dof.basis.knots.front(), end = dof.basis.knots.back();
+  const double start = std::max(ui.memory.span.from, dof.basis.knots.front());
+  const double end = std::min(ui.memory.span.to, dof.basis.knots.back());
   for (int d = 0; d <= max_derivative; ++d) {
     if (!ui.memory.curves.derivative[d]) continue;
     Curve curve{dof.name, colour_of(ui, dof.name), {}, {}, d, ghost, false};
@@ -185,6 +186,11 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
   m.dragged_index = -1;
 }
 
+void fit(Ui& ui) {
+  ui.memory.curves.low = ui.memory.curves.high = 0;
+  fit_time(ui);
+}
+
 void draw_tools(Ui& ui) {
   CurvesMemory& m = ui.memory.curves;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.scaled(5), ui.scaled(2)});
@@ -204,46 +210,51 @@ void draw_tools(Ui& ui) {
     ImGui::Checkbox("controls", &m.controls);
     ui.here("controls");
   }
-  if (ImGui::SmallButton("Fit")) m.low = m.high = 0;
-  ui.help("Shows all of the selected curves. The mouse wheel zooms, dragging with the right button moves.");
+  if (ImGui::SmallButton("Fit")) fit(ui);
+  ui.here("fit");
+  ui.help(
+      "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
+      "dragging "
+      "with the right button moves.");
   ImGui::PopStyleVar(3);
 }
 
-void zoom(CurvesMemory& m, const PlotFrame& frame) {
+// In values; move_time moves in time.
+void zoom(Ui& ui, const PlotFrame& frame) {
+  CurvesMemory& m = ui.memory.curves;
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.MouseWheel != 0) {
+  if (io.MouseWheel != 0 && !io.KeyShift) {
     const double by = std::pow(0.85, io.MouseWheel), at = frame.value_at(io.MousePos.y);
     m.low = at + (frame.bottom - at) * by;
     m.high = at + (frame.top - at) * by;
   }
-  if (ImGui::IsMouseDragging(1, 1)) {
+  if (ImGui::IsMouseDragging(1, 1) && io.MouseDelta.y != 0) {
     const double by = io.MouseDelta.y / frame.size.y * (frame.top - frame.bottom);
     m.low = frame.bottom + by;
     m.high = frame.top + by;
   }
-  if (ImGui::IsMouseDoubleClicked(0)) m.low = m.high = 0;
+  if (ImGui::IsMouseDoubleClicked(0)) fit(ui);
 }
 
 }  // namespace
 
-void draw_curves(Ui& ui, float left, float right) {
+void draw_curves(Ui& ui, const TimeAxis& axis) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float below = ImGui::GetFontSize() + 6, height = ImGui::GetContentRegionAvail().y;
   if (height < ui.scaled(60)) return;
   ImGui::BeginChild("curve tools", {ui.scaled(122), height});
   draw_tools(ui);
   ImGui::EndChild();
-  ImGui::SetCursorScreenPos({left, at.y + 4});
-  ImGui::InvisibleButton("curves", {right - left, height - below - 6});
+  ImGui::SetCursorScreenPos({axis.left, at.y + 4});
+  ImGui::InvisibleButton("curves", {axis.right - axis.left, height - below - 6});
   ui.here("curves");
   const auto curves = curves_of(ui);
   const State& s = ui.state;
-  PlotFrame frame{
-      {left, at.y + 4}, {right - left, height - below - 6}, s.scene->problem->start, s.scene->problem->end, 0, 1};
+  PlotFrame frame{{axis.left, at.y + 4}, {axis.right - axis.left, height - below - 6}, axis.from, axis.to, 0, 1};
   fit(frame, curves);
   CurvesMemory& m = ui.memory.curves;
   if (m.high > m.low) frame.bottom = m.low, frame.top = m.high;
-  if (ImGui::IsItemHovered()) zoom(m, frame);
+  if (ImGui::IsItemHovered()) zoom(ui, frame);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_scales(list, frame, ui.colours());
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);

@@ -10,19 +10,11 @@
 #include "gui/views/curves.h"
 #include "gui/views/freedoms.h"
 #include "gui/views/plot_frame.h"
+#include "gui/views/time_axis.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
-
-struct Axis {
-  double start = 0, end = 1;  // s
-  float left = 0, right = 1;  // pixels
-  float x(double t) const { return left + static_cast<float>((t - start) / (end - start)) * (right - left); }
-  double time(float pixel) const {
-    return std::clamp(start + (pixel - left) / (right - left) * (end - start), start, end);
-  }
-};
 
 // Dragged times snap to hundredths of a second, unless Alt is held.
 double snapped(double t) { return ImGui::GetIO().KeyAlt ? t : std::round(t * 100) / 100; }
@@ -61,16 +53,15 @@ bool draw_icon(Ui& ui, Icon icon, const char* name, const char* help) {
   return pressed;
 }
 
-void draw_transport(Ui& ui, const Axis& axis) {
+void draw_transport(Ui& ui, double start, double end) {
   const Playback& p = ui.state.playback;
   const double frame = 1 / p.rate;
-  if (draw_icon(ui, Icon::first, "to start", "To the start (Home)")) move_to(ui, axis.start);
-  if (draw_icon(ui, Icon::back, "frame back", "One frame back (Left)"))
-    move_to(ui, std::max(axis.start, p.time - frame));
+  if (draw_icon(ui, Icon::first, "to start", "To the start (Home)")) move_to(ui, start);
+  if (draw_icon(ui, Icon::back, "frame back", "One frame back (Left)")) move_to(ui, std::max(start, p.time - frame));
   if (draw_icon(ui, p.playing ? Icon::pause : Icon::play, "play", "Play or pause (Space)")) ui.emit(Play{!p.playing});
   if (draw_icon(ui, Icon::forward, "frame forward", "One frame forward (Right)"))
-    move_to(ui, std::min(axis.end, p.time + frame));
-  if (draw_icon(ui, Icon::last, "to end", "To the end (End)")) move_to(ui, axis.end);
+    move_to(ui, std::min(end, p.time + frame));
+  if (draw_icon(ui, Icon::last, "to end", "To the end (End)")) move_to(ui, end);
   Playback changed = p;
   if (ImGui::Checkbox("Loop", &changed.loop)) ui.emit(SetPlayback{changed});
   ui.here("loop");
@@ -99,7 +90,7 @@ void draw_transport(Ui& ui, const Axis& axis) {
   ui.notices(Notice::Place::timeline);
 }
 
-void label_of(const Ui& ui, ImDrawList& list, const Axis& axis, float y, const std::string& text,
+void label_of(const Ui& ui, ImDrawList& list, const TimeAxis& axis, float y, const std::string& text,
               const ImVec4& colour) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const float left = axis.left - 8 - std::min(size.x, ui.scaled(156));
@@ -108,18 +99,19 @@ void label_of(const Ui& ui, ImDrawList& list, const Axis& axis, float y, const s
   list.PopClipRect();
 }
 
-void draw_ruler(Ui& ui, const Axis& axis) {
+void draw_ruler(Ui& ui, const TimeAxis& axis) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ui.scaled(24);
   ImGui::SetCursorScreenPos({axis.left - 6, at.y});
   ImGui::InvisibleButton("ruler", {axis.right - axis.left + 12, height});
   ui.here("ruler");
-  ui.help("Click or drag to move through time.");
+  ui.help("Click or drag to move through time. The wheel zooms, dragging with the right button moves.");
   if (ImGui::IsItemActive()) move_to(ui, axis.time(ImGui::GetIO().MousePos.x));
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const double step = round_step(axis.end - axis.start, (axis.right - axis.left) / ui.scaled(70));
-  for (int k = 0; k * step / 5 <= axis.end - axis.start + 1e-9; ++k) {
-    const double t = axis.start + k * step / 5;
+  const double step = round_step(axis.to - axis.from, (axis.right - axis.left) / ui.scaled(70));
+  for (auto k = static_cast<long>(std::ceil(axis.from / step * 5 - 1e-6));
+       axis.shows(static_cast<double>(k) * step / 5); ++k) {
+    const double t = static_cast<double>(k) * step / 5;
     const bool named = k % 5 == 0;
     const float x = axis.x(t);
     list.AddLine({x, at.y + (named ? 12.0F : 17.0F) * ui.memory.scale}, {x, at.y + height}, packed(ui.colours().line));
@@ -128,6 +120,7 @@ void draw_ruler(Ui& ui, const Axis& axis) {
     list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.colours().faint), text.c_str());
   }
   for (const double key : ui.question().keys) {
+    if (!axis.shows(key)) continue;
     const float x = axis.x(key), y = at.y + height - 5, r = ui.scaled(4);
     list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.colours().curves[1]));
   }
@@ -135,7 +128,7 @@ void draw_ruler(Ui& ui, const Axis& axis) {
 }
 
 // A bar from `from` to `to` whose ends can be dragged; the new ends when they are let go.
-std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, const std::string& name, double from,
+std::optional<std::pair<double, double>> draw_bar(Ui& ui, const TimeAxis& axis, const std::string& name, double from,
                                                   double to, const ImVec4& colour, bool editable) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ui.scaled(12);
@@ -146,10 +139,12 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float a = axis.x(from), b = std::max(axis.x(to), a + 3);
-  list.AddRectFilled({a, at.y + 2}, {b, at.y + height}, packed(colour, 0.55F), 3);
+  const float first = std::max(a, axis.left), last = std::min(b, std::max(axis.right, a + 3));
+  if (first < last) list.AddRectFilled({first, at.y + 2}, {last, at.y + height}, packed(colour, 0.55F), 3);
   std::optional<std::pair<double, double>> result;
   if (!editable) return result;
   for (const int end : {0, 1}) {
+    if (!axis.shows(end == 0 ? from : to) && dragged != name) continue;
     const float x = end == 0 ? a : b;
     ImGui::SetCursorScreenPos({x - 5, at.y});
     ImGui::PushID(end);
@@ -177,7 +172,7 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const Axis& axis, cons
   return result;
 }
 
-void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
+void draw_window_row(Ui& ui, const TimeAxis& axis, const Problem& problem) {
   const Question& question = ui.question();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   label_of(ui, *ImGui::GetWindowDrawList(), axis, at.y + ui.scaled(7), "window", ui.colours().text);
@@ -193,7 +188,7 @@ void draw_window_row(Ui& ui, const Axis& axis, const Problem& problem) {
   ImGui::SetCursorScreenPos({at.x, at.y + ui.scaled(16)});
 }
 
-void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
+void draw_scopes(Ui& ui, const TimeAxis& axis, const Problem& problem) {
   const Question& question = ui.question();
   const Basis basis =
       ui.state.curves && !ui.state.curves->dofs.empty()
@@ -230,7 +225,7 @@ void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
       }
     }
     for (const double t : times)
-      list.AddCircleFilled({axis.x(t), y}, ui.scaled(interval ? 1.5F : 4), packed(colour), 10);
+      if (axis.shows(t)) list.AddCircleFilled({axis.x(t), y}, ui.scaled(interval ? 1.5F : 4), packed(colour), 10);
     ImGui::SetCursorScreenPos({at.x, at.y + ui.scaled(16)});
   }
 }
@@ -240,23 +235,20 @@ void draw_scopes(Ui& ui, const Axis& axis, const Problem& problem) {
 void draw_timeline(Ui& ui) {
   const State& s = ui.state;
   const bool there = s.scene && s.scene->problem;
-  Axis axis;
-  if (there) {
-    axis.start = s.scene->problem->start;
-    axis.end = s.scene->problem->end;
-  }
+  const double start = there ? s.scene->problem->start : 0, end = there ? s.scene->problem->end : 1;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  axis.left = at.x + ui.scaled(166);
-  axis.right = at.x + width - ui.scaled(18);
-  draw_transport(ui, axis);
+  draw_transport(ui, start, end);
   if (!there) {
     ImGui::TextDisabled("There is no motion: the scene has mistakes.");
     return;
   }
+  const TimeAxis axis = time_axis(ui, start, end, at.x + ui.scaled(166), at.x + width - ui.scaled(18));
+  const float top = ImGui::GetCursorScreenPos().y;
   draw_ruler(ui, axis);
   const float below = ImGui::GetCursorScreenPos().y;
   draw_window_row(ui, axis, *s.scene->problem);
+  const float rows_top = ImGui::GetCursorScreenPos().y;
   // Scopes take what they need, up to a third of the panel; the rest scrolls.
   const auto rows = std::ranges::count_if(
       ui.question().equations, [](const Equation& e) { return !e.objective && e.scope.kind != Scope::Kind::once; });
@@ -266,11 +258,13 @@ void draw_timeline(Ui& ui) {
   draw_scopes(ui, axis, *s.scene->problem);
   ImGui::EndChild();
   ImGui::PopStyleVar();
-  draw_curves(ui, axis.left, axis.right);
+  draw_curves(ui, axis);
+  const float bottom = at.y + ImGui::GetWindowHeight();
+  move_time(ui, axis, top, rows_top, bottom);
   // The cursor goes through everything.
+  if (!axis.shows(s.playback.time)) return;
   const float x = axis.x(s.playback.time);
-  ImGui::GetWindowDrawList()->AddLine({x, below - ui.scaled(10)}, {x, at.y + ImGui::GetWindowHeight()},
-                                      packed(ui.colours().bad, 0.9F), 1.5F);
+  ImGui::GetWindowDrawList()->AddLine({x, below - ui.scaled(10)}, {x, bottom}, packed(ui.colours().bad, 0.9F), 1.5F);
 }
 
 }  // namespace spacetime::gui

@@ -48,6 +48,11 @@ struct BarMemory {
   double ends[2]{0, 0};  // s, of it
 };
 
+struct SpanMemory {
+  double start = 0, end = 0;  // s, of the scene
+  double from = 0, to = 0;    // s, of it shown by the timeline and the curves
+};
+
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
@@ -69,6 +74,7 @@ struct Memory {
   SceneMemory scene;
   CurvesMemory curves;
   BarMemory bar;
+  SpanMemory span;
   FilesMemory files;
   std::string focused_draft;                    // the keyboard has been given to it
   bool drag_dropped = false;                    // by Esc: nothing more comes of it until the button is let go

@@ -79,6 +79,32 @@ void Driver::let_go() {
   frame(2);
 }
 
+void Driver::drag_right(const std::string& name, float dx, float dy) {
+  const gui::Rect r = place(name);
+  const float x = r.x + r.width / 2, y = r.y + r.height / 2;
+  screen_.move(x, y);
+  frame(2);
+  screen_.button(1, true);
+  frame();
+  for (int k = 1; k <= 8; ++k) {
+    screen_.move(x + dx * static_cast<float>(k) / 8, y + dy * static_cast<float>(k) / 8);
+    frame();
+  }
+  screen_.button(1, false);
+  frame(2);
+}
+
+void Driver::wheel(const std::string& name, float by, bool shift) {
+  const gui::Rect r = place(name);
+  screen_.move(r.x + r.width / 2, r.y + r.height / 2);
+  if (shift) screen_.key(GLFW_KEY_LEFT_SHIFT, true);
+  frame(2);
+  screen_.wheel(by);
+  frame();
+  screen_.key(GLFW_KEY_LEFT_SHIFT, false);
+  frame(2);
+}
+
 void Driver::key(int glfw_key, bool control, bool shift) {
   if (control) screen_.key(GLFW_KEY_LEFT_CONTROL, true);
   if (shift) screen_.key(GLFW_KEY_LEFT_SHIFT, true);

@@ -25,6 +25,8 @@ class Driver {
   // From the middle of a control by so many pixels, in `steps` frames; `let_go` false keeps the button down.
   void drag(const std::string& name, float dx, float dy, int steps = 8, bool let_go = true);
   void let_go();
+  void drag_right(const std::string& name, float dx, float dy);  // with the other button
+  void wheel(const std::string& name, float by, bool shift = false);
   void key(int glfw_key, bool control = false, bool shift = false);
   void type(const std::string& text);
   void write_into(const std::string& name, const std::string& text);  // a text field; Enter at the end

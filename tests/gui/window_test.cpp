@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/bspline.h"
 #include "common/files.h"
 #include "tests/gui/driven.h"
 #include "tests/gui/driver.h"
@@ -251,6 +252,48 @@ TEST(Window, TablesFollowTheActs) {
   d.drag("scope flight from", -40, 0);
   d.settle();
   EXPECT_NE(d.state().log.back().text.find(", land] every 0.05"), std::string::npos) << d.state().log.back().text;
+}
+
+// The ruler, the bars and the curves show the same span of time, however it is zoomed and moved.
+TEST(Window, TheTimeAxisIsZoomedAndMovedAsOne) {
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.settle();
+  gui::Selection selection;
+  selection.dofs = {"arm.elbow"};
+  d.hub().post(gui::Select{selection});
+  d.frame(2);
+  const auto control = [&](int i) { return d.place("control arm.elbow " + std::to_string(i)); };
+  const float apart = control(11).x - control(10).x;
+  const gui::Rect curves = d.place("curves");
+  EXPECT_TRUE(d.has("window from"));
+  d.wheel("ruler", 4);
+  EXPECT_GT(control(11).x - control(10).x, 1.5F * apart);
+  EXPECT_FALSE(d.has("window from"));  // out of sight
+  EXPECT_EQ(d.place("curves").width, curves.width);
+  const float middle = control(11).x;
+  d.drag_right("curves", 60, 0);
+  EXPECT_NEAR(control(11).x, middle + 60, 0.5);
+  const double low = d.screen().memory().curves.low;
+  d.drag_right("curves", 0, 30);
+  EXPECT_NEAR(control(11).x, middle + 60, 0.5);
+  EXPECT_NE(d.screen().memory().curves.low, low);
+  d.wheel("curves", 2, true);
+  EXPECT_GT(control(11).x - control(10).x, 2 * apart);
+
+  // A click on the ruler above a control point goes to the time that it has most to say about.
+  const auto& elbow = *std::ranges::find(d.state().curves->dofs, "arm.elbow", &Trajectory::name);
+  const gui::Rect ruler = d.place("ruler"), point = control(13);
+  d.drag("ruler", point.x + point.width / 2 - ruler.x - ruler.width / 2, 0);
+  EXPECT_NEAR(d.state().playback.time, greville(elbow.basis)[13], 1e-3);
+  const gui::Rect held = d.place("scope held to"), flight = d.place("scope flight from");
+  EXPECT_GT(held.x, flight.x);  // 1.1 s and 1 s
+  d.frame(20);
+  d.save_picture("curves-zoomed.png");
+  d.click("fit");
+  EXPECT_NEAR(control(11).x - control(10).x, apart, 0.01);
+  EXPECT_TRUE(d.has("window from"));
 }
 
 }  // namespace
