@@ -314,6 +314,16 @@ Eigen::VectorXd soft_weights(const Transcription& t, const Layout& layout, const
   return weights;
 }
 
+double stationarity_of(const Layout& layout, const Eigen::VectorXd& lagrangian, const Eigen::VectorXd& objective) {
+  double largest = 0, of_objective = 1;
+  for (const int u : layout.free) {
+    const int position = layout.of_unknown[u];
+    largest = std::max(largest, std::abs(lagrangian[position]));
+    of_objective = std::max(of_objective, std::abs(objective[position]));
+  }
+  return largest / of_objective;
+}
+
 Linearisation start_linearisation(const Layout& layout) {
   return {Eigen::VectorXd::Zero(layout.size()), BorderedMatrix(layout.pattern), BorderedMatrix(layout.pattern)};
 }

@@ -45,6 +45,9 @@ Values evaluate(const Transcription& transcription, std::span<const double> x, W
 // The residuals c, one a row, in KKT positions; and of such: the weights of soft rows that ask something, 0 elsewhere.
 Eigen::VectorXd residual_of(const Transcription& transcription, const Layout& layout, const Values& values);
 Eigen::VectorXd soft_weights(const Transcription& transcription, const Layout& layout, const Eigen::VectorXd& c);
+// The largest component of a Lagrangian's gradient at a free unknown, over that of the objective's or 1.  Both in KKT
+// positions.
+double stationarity_of(const Layout& layout, const Eigen::VectorXd& lagrangian, const Eigen::VectorXd& objective);
 
 // `result` must have been made for this layout.
 Linearisation start_linearisation(const Layout& layout);

@@ -125,13 +125,7 @@ void Newton::judge(NewtonState& state) {
     state.multipliers[r] = of_equations[k] + state.barrier.dual[k] + weights[k] * c[k];
   }
   pulled += multiply(linear.jacobian, of_equations);
-  double largest = 0, of_objective = 1;
-  for (const int u : layout_.free) {
-    const int position = layout_.of_unknown[u];
-    largest = std::max(largest, std::abs(pulled[position]));
-    of_objective = std::max(of_objective, std::abs(state.gradient[position]));
-  }
-  state.measures.stationarity = largest / of_objective;
+  state.measures.stationarity = stationarity_of(layout_, pulled, state.gradient);
   state.measures.gap = limits_.gap(state.x, state.barrier, 0) / std::max(1.0, std::abs(state.values.objective));
 
   const Stopwatch watch(state.seconds.evaluate);

@@ -74,15 +74,9 @@ void Sqp92::judge(Sqp92State& state) {
   }
   state.gradient = state.linear.gradient + multiply(state.linear.jacobian, of_soft);
   const Eigen::VectorXd pulled = state.gradient + multiply(state.linear.jacobian, multipliers);
-  double largest = 0, of_objective = 1;
-  for (const int u : layout_.free) {
-    const int position = layout_.of_unknown[u];
-    largest = std::max(largest, std::abs(pulled[position]));
-    of_objective = std::max(of_objective, std::abs(state.gradient[position]));
-  }
-  state.measures.stationarity = largest / of_objective;
+  state.measures.stationarity = stationarity_of(layout_, pulled, state.gradient);
   add_row_curvature(t_, layout_, state.x, state.values, state.multipliers, workspace_, state.linear);
-  if (state.gradient.allFinite() && std::isfinite(largest)) state.condition = StepResult::stepped;
+  if (state.gradient.allFinite() && std::isfinite(state.measures.stationarity)) state.condition = StepResult::stepped;
 }
 
 std::optional<Sqp92::Direction> Sqp92::factored(Sqp92State& state) {
