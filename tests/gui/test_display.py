@@ -17,15 +17,17 @@ class Display(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
+        self.environment = dict(os.environ, XDG_STATE_HOME=self.folder.name)
+
+    def serve(self, *options):
         read, write = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+        server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp", *options],
             pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
-        self.addCleanup(self.end, self.server)
+        self.addCleanup(self.end, server)
         with os.fdopen(read) as told:
-            number = told.readline().strip()
-        self.environment = dict(os.environ, DISPLAY=":" + number, XDG_STATE_HOME=self.folder.name)
+            self.environment["DISPLAY"] = ":" + told.readline().strip()
 
     @staticmethod
     def end(process):
@@ -43,6 +45,7 @@ class Display(unittest.TestCase):
             time.sleep(0.1)
 
     def test_a_throw_is_opened_solved_and_saved(self):
+        self.serve()
         scene = pathlib.Path(self.folder.name) / "throw.scene"
         text = (EXAMPLES / "throw.scene").read_text()
         scene.write_text(text[: text.rindex("solve")])
@@ -67,11 +70,19 @@ class Display(unittest.TestCase):
         self.assertEqual(window.wait(30), 0)
 
     def test_without_a_display_it_says_what_to_do(self):
-        environment = {name: value for name, value in self.environment.items() if "DISPLAY" not in name}
-        ended = subprocess.run([PROGRAMS / "spacetime-gui"], env=environment, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.environment = {name: value for name, value in self.environment.items() if "DISPLAY" not in name}
+        self.expect_refusal("no window can be opened", "spacetime-gui render")
+
+    def test_without_opengl_it_says_what_to_install(self):
+        self.serve("-extension", "GLX")
+        self.expect_refusal("no OpenGL 3.3", "libgl1-mesa-dri")
+
+    def expect_refusal(self, *words):
+        ended = subprocess.run([PROGRAMS / "spacetime-gui"], env=self.environment, stderr=subprocess.PIPE, text=True,
+                               timeout=60)
         self.assertEqual(ended.returncode, 1)
-        self.assertIn("no window can be opened", ended.stderr)
-        self.assertIn("spacetime-gui render", ended.stderr)
+        for word in words:
+            self.assertIn(word, ended.stderr)
 
 
 if __name__ == "__main__":
