@@ -64,11 +64,12 @@ struct Daemon {
   bool met = false;  // it has been ready before
 };
 
-// A constant, key or slider that is being dragged: the motion follows, and one line is left of it.
+// A constant, key, slider or control point that is being dragged: the motion follows, and one line is left of it.
 struct Steering {
   std::string line;                  // that would be written now: set BasketX = 2.71; set BasketY = 0.5
   std::vector<std::string> actions;  // the same, each as JSON
   std::vector<std::pair<std::string, double>> constants{};  // that it sets
+  bool solves = true;  // false: what it leads to is the edit alone, which solving would take back
 };
 
 struct ConsoleLine {

@@ -238,7 +238,9 @@ void finish_task(State& state, Effects& effects) {
   work.inexact = work.inexact || (work.job.declared && (entry.iterated || grown));
   if (!task.about.empty() || task.place == Place::equations) state.drafts.erase(task.about);
   if (task.scripted) take_from_script(state);
-  if (!work.run) state.ghost = state.curves;
+  // After a drag the curves shown are those it led to already.
+  const auto& before = state.log[state.present].motion;
+  if (!work.run) state.ghost = before ? curves_of(*before) : state.curves;
   work.job = {};
   append(state, std::move(entry), task.merge, true, effects);
   if (work.run) ask_motion(state, effects, {Kind::look});  // what a set constant is worth

@@ -1,6 +1,7 @@
-// Dragging a constant, a key or a slider.  While it lasts the newest value is sent as soon as the one before has been
-// followed by a few iterations.  When it is let go all of that is undone from a checkpoint; then the last value is set
-// and solved for like any other act, so that the text leads to the same bits as the session.
+// Dragging a constant, a key, a slider or a control point.  While it lasts the newest value is sent as soon as the one
+// before has been followed by a few iterations (of a control point, as soon as the motion with it is known).  When it
+// is let go all of that is undone from a checkpoint; then the last value is set and solved for like any other act, so
+// that the text leads to the same bits as the session.
 #include <algorithm>
 
 #include "gui/apply.h"
@@ -23,6 +24,7 @@ void apply(State& state, const Steer& event, Effects& effects) {
   if (!work.drag) work.drag.emplace();
   work.drag->line = event.steering.line;
   work.drag->actions = event.steering.actions;
+  work.drag->solves = event.steering.solves;
   work.drag->fresh = true;
   if (work.drag->run && work.drag->moved) {
     effects.push_back(Cancel{work.drag->run});
@@ -48,11 +50,14 @@ void advance_drag(State& state, Effects& effects) {
   drag.begun = true;
   drag.fresh = drag.moved = false;
   for (const std::string& action : drag.actions) ask_action(state, effects, action, {Kind::steer});
-  drag.run =
-      ask_action(state, effects, "{\"action\":\"solve\",\"iterations\":" + std::to_string(steering_iterations) + "}",
-                 {Kind::steer_run});
+  drag.unanswered = static_cast<int>(drag.actions.size()) + 1;
+  if (drag.solves) {
+    drag.run =
+        ask_action(state, effects, "{\"action\":\"solve\",\"iterations\":" + std::to_string(steering_iterations) + "}",
+                   {Kind::steer_run});
+    ++drag.unanswered;
+  }
   ask_motion(state, effects, {Kind::steer});
-  drag.unanswered = static_cast<int>(drag.actions.size()) + 2;
 }
 
 void leave_drag(State& state, Effects& effects) {
@@ -71,10 +76,11 @@ void apply(State& state, const Steered& event, Effects& effects) {
   Work& work = state.work;
   if (!work.drag) return;
   const std::string line = work.drag->line;
-  const bool begun = work.drag->begun;
+  const bool begun = work.drag->begun, solves = work.drag->solves;
   leave_drag(state, effects);
   if (event.keep) {
     work.tasks.push_back({.line = line, .place = Notice::Place::view});
+    if (!solves) return;
     work.tasks.push_back({.line = "solve", .place = Notice::Place::view, .merge = true, .iterates = true});
   } else if (begun) {
     show(state, state.log[state.present]);

@@ -104,6 +104,7 @@ struct Work {
   struct Drag {
     std::string line;
     std::vector<std::string> actions;
+    bool solves = true;  // each value is followed by a few iterations, the last by a solve
     bool fresh = true;   // not sent yet
     bool moved = false;  // the round that is under way has iterated
     int unanswered = 0;

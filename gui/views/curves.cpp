@@ -146,7 +146,49 @@ void draw(ImDrawList& list, const PlotFrame& frame, const Curve& curve, float sc
   stroke();
 }
 
-// Knots as ticks and control points as handles; a handle that was let go moves its coefficient.
+Steering moving(const std::string& dof, int index, double value) {
+  const Words words = control_words(dof, index, value);
+  return {.line = words.line, .actions = {words.action}, .solves = false};
+}
+
+// A control point is taken hold of, moved, let go.
+void drag_control(Ui& ui, const PlotFrame& frame) {
+  CurvesMemory& m = ui.memory.curves;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool moved = io.MouseDragMaxDistanceSqr[0] > 4;
+  const bool dropped = ui.memory.drag_dropped;
+  if (!dropped && moved && ImGui::IsMouseDown(0) && io.MouseDelta.y != 0) {
+    m.dragged_value = frame.value_at(io.MousePos.y);
+    ui.emit(Steer{moving(m.dragged, m.dragged_index, m.dragged_value)});
+  }
+  if (ImGui::IsMouseDown(0) && !dropped) return;
+  if (moved && !dropped) ui.emit(Steered{true});
+  if (m.held) m.low = m.high = 0;
+  m.held = false;
+  m.dragged.clear();
+  m.dragged_index = -1;
+}
+
+void take_control(Ui& ui, const PlotFrame& frame, const Trajectory& dof, std::size_t i) {
+  CurvesMemory& m = ui.memory.curves;
+  m.dragged = dof.name;
+  m.dragged_index = static_cast<int>(i);
+  m.dragged_value = dof.coefficients[i];
+  m.held = m.high <= m.low;
+  m.low = frame.bottom;
+  m.high = frame.top;
+}
+
+// Whether the window leaves the optimiser, and the hand, this coefficient: its whole support has to be inside.
+bool is_free(const Question& question, const Trajectory& dof, std::size_t i) {
+  const auto freedom = std::ranges::find(question.dofs, dof.name, &Freedom::name);
+  if (freedom != question.dofs.end() && !freedom->in_window) return false;
+  if (!question.window) return true;
+  const auto& knots = dof.basis.knots;
+  return knots[i] >= question.window->first && knots[i + 4] <= question.window->second;
+}
+
+// Knots as ticks, and control points as handles.
 void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
   CurvesMemory& m = ui.memory.curves;
   const bool hovered = ImGui::IsItemHovered();
@@ -161,29 +203,25 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
     if (!m.controls || !m.derivative[0]) continue;
     const auto times = greville(dof.basis);
     for (std::size_t i = 0; i < times.size(); ++i) {
+      if (!frame.shows(times[i])) continue;
       const bool mine = m.dragged == dof.name && m.dragged_index == static_cast<int>(i);
+      const bool free = is_free(ui.question(), dof, i);
       const ImVec2 at{frame.x(times[i]), frame.y(mine ? m.dragged_value : dof.coefficients[i])};
       const float away = std::hypot(mouse.x - at.x, mouse.y - at.y);
       const bool hot = mine || (hovered && m.dragged.empty() && away < 7 * ui.memory.scale);
-      list.AddCircleFilled(at, (hot ? 5.0F : 3.0F) * ui.memory.scale,
-                           packed(hot ? ui.colours().text : ui.colours().panel), 12);
-      list.AddCircle(at, (hot ? 5.0F : 3.0F) * ui.memory.scale, colour, 12, 1.5F);
+      const float r = (hot && free ? 5.0F : 3.0F) * ui.memory.scale;
+      list.AddCircleFilled(at, r, packed(hot && free ? ui.colours().text : ui.colours().panel), 12);
+      list.AddCircle(at, r, free ? colour : packed(ui.colours().line), 12, 1.5F);
       ui.memory.places[fmt::format("control {} {}", dof.name, i)] = {at.x - 3, at.y - 3, 6, 6};
-      if (hot && m.dragged.empty()) {
-        ui.help(fmt::format("{} [{}] = {}\nDrag to move this control point.", dof.name, i, shown(dof.coefficients[i]))
-                    .c_str());
-        if (ImGui::IsMouseClicked(0))
-          m.dragged = dof.name, m.dragged_index = static_cast<int>(i), m.dragged_value = dof.coefficients[i];
-      }
+      if (!hot || !m.dragged.empty()) continue;
+      ui.help(fmt::format("{} [{}] = {}\n{}", dof.name, i, shown(dof.coefficients[i]),
+                          free ? "Drag to move this control point: the figure follows. Solving moves it again."
+                               : "The window leaves this control point where it is.")
+                  .c_str());
+      if (free && ImGui::IsMouseClicked(0)) take_control(ui, frame, dof, i);
     }
   }
-  if (m.dragged.empty()) return;
-  if (ImGui::IsMouseDragging(0, 2)) m.dragged_value = frame.value_at(mouse.y);
-  if (!ImGui::IsMouseReleased(0)) return;
-  if (ImGui::GetIO().MouseDragMaxDistanceSqr[0] > 4)
-    ui.act(control_words(m.dragged, m.dragged_index, m.dragged_value).line, Notice::Place::timeline);
-  m.dragged.clear();
-  m.dragged_index = -1;
+  if (!m.dragged.empty()) drag_control(ui, frame);
 }
 
 void fit(Ui& ui) {

@@ -16,6 +16,7 @@ struct PlotFrame {
 
   float x(double value) const { return corner.x + static_cast<float>((value - left) / (right - left)) * size.x; }
   float y(double value) const { return corner.y + static_cast<float>((top - value) / (top - bottom)) * size.y; }
+  bool shows(double value) const { return value >= left && value <= right; }
   double value_at(float pixel) const { return top - (pixel - corner.y) / size.y * (top - bottom); }
 };
 

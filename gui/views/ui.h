@@ -31,6 +31,7 @@ struct CurvesMemory {
   std::string dragged;  // degree of freedom of the control point that is being dragged
   int dragged_index = -1;
   double dragged_value = 0;
+  bool held = false;  // what is shown stays while a control point is dragged, though it was fitted
 };
 
 struct SceneMemory {

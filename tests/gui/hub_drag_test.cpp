@@ -57,5 +57,42 @@ TEST(Update, UndoDuringTheSolveAfterADragLeavesThatToBeRedone) {
   EXPECT_TRUE(can_redo(table.state));
 }
 
+// Solving would take a control point back to where it was: it is moved, shown, and moved again.
+TEST(Update, ADraggedControlPointIsFollowedByTheMotionWithItAlone) {
+  Table table;
+  table.open();
+  const auto moving = [](double to) {
+    const Words words = control_words("x", 2, to);
+    return Steer{{.line = words.line, .actions = {words.action}, .solves = false}};
+  };
+  const auto before = table.state.curves;
+  table.feed(moving(1));
+  table.feed(moving(2));
+  EXPECT_EQ(table.count("action/do"), 1);
+  table.done(table.take("action/do"), {});
+  table.reach(7);
+  EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 7);  // the figure follows
+  EXPECT_EQ(table.state.ghost, before);
+  EXPECT_EQ(table.take("action/do").params, "\"action\":" + control_words("x", 2, 2).action);
+  table.feed(Steered{true});
+  EXPECT_EQ(table.state.work.tasks.size(), 1U);  // and no solve
+  EXPECT_EQ(table.state.work.tasks.front().line, "control x 2 = 2");
+}
+
+// Let go by Esc, nothing is left of it.
+TEST(Update, ADraggedControlPointCanBeLetBack) {
+  Table table;
+  table.open();
+  const Words words = control_words("x", 2, 1);
+  table.feed(Steer{{.line = words.line, .actions = {words.action}, .solves = false}});
+  table.done(table.take("action/do"), {});
+  table.reach(7);
+  table.feed(Steered{false});
+  EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 0);
+  EXPECT_FALSE(table.state.ghost);
+  EXPECT_TRUE(table.state.work.tasks.empty());
+  EXPECT_EQ(table.count("motion/set"), 1);
+}
+
 }  // namespace
 }  // namespace spacetime::gui

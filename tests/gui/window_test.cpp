@@ -296,5 +296,49 @@ TEST(Window, TheTimeAxisIsZoomedAndMovedAsOne) {
   EXPECT_TRUE(d.has("window from"));
 }
 
+// A control point that is dragged takes the figure with it; the text has where it was let go.
+TEST(Window, AControlPointIsDraggedWithTheFigure) {
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.click("run");
+  d.settle();
+  gui::Selection selection;
+  selection.dofs = {"arm.elbow"};
+  d.hub().post(gui::Select{selection});
+  d.hub().post(gui::DropGhost{});
+  d.frame(2);
+  const auto elbow = [](const std::vector<Trajectory>& dofs) {
+    return std::ranges::find(dofs, "arm.elbow", &Trajectory::name)->coefficients;
+  };
+  const auto before = elbow(d.state().curves->dofs);
+  const auto present = d.state().present;
+  d.drag("control arm.elbow 10", 0, -20, 8, false);
+  d.until([&](const gui::State& s) { return elbow(s.curves->dofs) != before; }, "the figure to follow");
+  d.frame(3);
+  ASSERT_TRUE(d.state().ghost);
+  EXPECT_EQ(elbow(d.state().ghost->dofs), before);
+  EXPECT_FALSE(d.state().running);
+  d.save_picture("curves-dragging.png");
+  const auto followed = elbow(d.state().curves->dofs);
+  EXPECT_GT(followed[10], before[10]);
+  d.let_go();
+  d.settle();
+  EXPECT_EQ(elbow(d.state().curves->dofs), followed);
+  ASSERT_EQ(d.state().present, present + 1);
+  EXPECT_EQ(d.state().log.back().text.find("control arm.elbow 10 = "), 0U) << d.state().log.back().text;
+  EXPECT_EQ(elbow(d.state().ghost->dofs), before);  // still: of the motion before
+  EXPECT_EQ(batch_curves(text_of(d.state())), present_curves(d.state()));
+
+  // Esc lets it back.
+  d.drag("control arm.elbow 8", 0, 30, 8, false);
+  d.until([&](const gui::State& s) { return elbow(s.curves->dofs) != followed; }, "the figure to follow");
+  d.key(GLFW_KEY_ESCAPE);
+  d.let_go();
+  d.settle();
+  EXPECT_EQ(elbow(d.state().curves->dofs), followed);
+  EXPECT_EQ(d.state().present, present + 1);
+}
+
 }  // namespace
 }  // namespace spacetime::test
