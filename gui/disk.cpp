@@ -75,6 +75,14 @@ void sync_folder(const std::string& folder) {
   ::close(opened);
 }
 
+bool holds(const std::string& file, const std::string& text) {
+  try {
+    return read_text(file) == text;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 SettingsRead read_settings(const std::string& folder) {
   SettingsRead settings;
   const std::string file = settings_file(folder);
@@ -220,6 +228,11 @@ void Disk::act(const ReadFile& effect) {
     if (!held) throw InputError("'" + file + "' cannot be opened, or another window has it");
     Restored restored = read_journal(read_text(file));
     restored.journal = effect.file;
+    // Whatever its file holds now that is not what the session knew was written by somebody else.
+    if (!restored.file.empty()) {
+      know(restored.file);
+      if (read_stamp_ && !holds(restored.file, restored.saved)) read_stamp_.reset();
+    }
     post_(std::move(restored));
   } catch (const std::exception& error) {
     post_(FileFailed{effect.file, error.what()});

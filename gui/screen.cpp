@@ -1,6 +1,5 @@
 #include "gui/screen.h"
 
-#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 
@@ -26,19 +25,13 @@ Screen::~Screen() {
   ImGui::DestroyContext();
 }
 
-void Screen::move(float x, float y) { ImGui::GetIO().MousePos = {x, y}; }
+void Screen::move(float x, float y) { mouse_ = {x, y}; }
 
-void Screen::button(int which, bool down) { ImGui::GetIO().MouseDown[which] = down; }
+void Screen::button(int which, bool down) { input_.button(which, down, mouse_); }
 
 void Screen::wheel(float by) { ImGui::GetIO().MouseWheel += by; }
 
-void Screen::key(int glfw_key, bool down) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.KeysDown[glfw_key] = down;
-  io.KeyCtrl = io.KeysDown[GLFW_KEY_LEFT_CONTROL];
-  io.KeyShift = io.KeysDown[GLFW_KEY_LEFT_SHIFT];
-  io.KeyAlt = io.KeysDown[GLFW_KEY_LEFT_ALT];
-}
+void Screen::key(int glfw_key, bool down) { input_.key(glfw_key, down, 0); }
 
 void Screen::type(const std::string& text) { ImGui::GetIO().AddInputCharactersUTF8(text.c_str()); }
 
@@ -47,6 +40,7 @@ void Screen::finish() { glFinish(); }
 std::vector<Event> Screen::frame(const State& state, double seconds) {
   ImGui::GetIO().DeltaTime = static_cast<float>(seconds);
   ImGui_ImplOpenGL3_NewFrame();
+  input_.give(ImGui::GetIO(), mouse_);
   const std::vector<Event> events = draw_frame(state, memory_, *scene_);
   target_.bind();
   paint(memory_, target_.width(), target_.height());

@@ -9,6 +9,7 @@
 #include "gui/render/offscreen.h"
 #include "gui/render/target.h"
 #include "gui/views/frame.h"
+#include "gui/views/input.h"
 
 namespace spacetime::gui {
 
@@ -38,6 +39,8 @@ class Screen {
   Offscreen offscreen_;
   Target target_;
   Memory memory_;
+  Input input_;
+  ImVec2 mouse_{-1, -1};
   std::unique_ptr<SceneView> scene_;
 };
 

@@ -108,8 +108,9 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   entry.scene = appended(*last.scene, text, statements, nullptr);
   entry.iterated = true;
   if (work.scripted) take_from_script(state);
-  // Where the person did something else meanwhile, it stays an entry of its own.
-  append(state, std::move(entry), work.merge && seen && last.number == work.began, seen, effects);
+  // Where the person did something else meanwhile, or stands at what it began from, it stays an entry of its own.
+  const bool behind = seen || state.present + 1 < static_cast<int>(state.log.size());
+  append(state, std::move(entry), work.merge && behind && last.number == work.began, seen, effects);
 }
 
 }  // namespace

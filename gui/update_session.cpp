@@ -315,13 +315,17 @@ void apply(State& state, const GoTo& event, Effects& effects) {
 
 void apply(State& state, const Undo&, Effects& effects) {
   if (!can_undo(state)) return;
-  if (state.waiting > 0) {  // that was done last
+  const Work& work = state.work;
+  const Task* next = work.job.task ? &*work.job.task : work.tasks.empty() ? nullptr : &work.tasks.front();
+  const bool first_half = next && next->merge;  // of what is one act to the person
+  if (state.waiting > 0) {                      // that was done last
     drop_acts(state, effects);
-    if (state.work.discarded) show(state, state.log[state.present]);
-    return;
+    if (work.discarded) show(state, state.log[state.present]);
+    if (!first_half) return;
   }
+  const bool runs = state.running && !work.unseen;
   int entry = state.present;
-  if (!state.running || state.work.unseen) --entry;
+  if (!runs || (work.merge && work.began == state.log[entry].number)) --entry;
   while (entry >= 0 && !state.log[entry].checkpoint) --entry;
   apply(state, GoTo{entry}, effects);
 }

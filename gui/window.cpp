@@ -13,6 +13,7 @@
 #include "common/diagnostic.h"
 #include "gui/views/dialogs.h"
 #include "gui/views/frame.h"
+#include "gui/views/input.h"
 
 namespace spacetime::gui {
 namespace {
@@ -26,32 +27,14 @@ constexpr double longest_wait = 0.25;  // s
 std::string last_error;
 void take_error(int, const char* text) { last_error = text; }
 
-// Keys that went down since the last frame, with what was held beside them.  A key that also went up again in that time
-// would otherwise never have been down: ImGui is told of it for one frame.
-struct Pressed {
-  int key = 0, modifiers = 0;
-};
-std::vector<Pressed> pressed;
+Input input;
 void take_key(GLFWwindow*, int key, int, int action, int modifiers) {
-  if (action == GLFW_PRESS && key >= 0) pressed.push_back({key, modifiers});
+  if (action != GLFW_REPEAT) input.key(key, action == GLFW_PRESS, modifiers);
 }
-
-void hold_pressed(ImGuiIO& io) {
-  for (const Pressed& p : pressed) {
-    io.KeysDown[p.key] = true;
-    io.KeyCtrl |= (p.modifiers & GLFW_MOD_CONTROL) != 0;
-    io.KeyShift |= (p.modifiers & GLFW_MOD_SHIFT) != 0;
-    io.KeyAlt |= (p.modifiers & GLFW_MOD_ALT) != 0;
-  }
-}
-
-void let_go_of_pressed(ImGuiIO& io, GLFWwindow* window) {
-  for (const Pressed& p : pressed) io.KeysDown[p.key] = glfwGetKey(window, p.key) == GLFW_PRESS;
-  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
-  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
-  pressed.clear();
+void take_button(GLFWwindow* window, int which, int action, int) {
+  double x = 0, y = 0;
+  glfwGetCursorPos(window, &x, &y);
+  input.button(which, action == GLFW_PRESS, {static_cast<float>(x), static_cast<float>(y)});
 }
 
 // Everything that lives as long as the window, and ends in the right order.
@@ -76,7 +59,8 @@ class Shell {
     glfwSwapInterval(1);
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    glfwSetKeyCallback(window, take_key);  // ImGui's own, set next, calls it first
+    glfwSetKeyCallback(window, take_key);  // ImGui's own, set next, call them first
+    glfwSetMouseButtonCallback(window, take_button);
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 330");
   }
@@ -125,20 +109,20 @@ int run_window(Hub& hub, float scale, bool welcome) {
     const State& state = hub.state();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    hold_pressed(ImGui::GetIO());
+    input.give(ImGui::GetIO(), ImGui::GetIO().MousePos);
     std::vector<Event> events = draw_frame(state, memory, *scene);
-    let_go_of_pressed(ImGui::GetIO(), shell.window);
     if (glfwWindowShouldClose(shell.window) == GLFW_TRUE) {
       glfwSetWindowShouldClose(shell.window, GLFW_FALSE);
       Ui ui{state, memory, events};
-      leave_for(ui, "");
+      leave_for(ui, {});
     }
     int width = 0, height = 0;
     glfwGetFramebufferSize(shell.window, &width, &height);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     paint(memory, width, height);
     glfwSwapBuffers(shell.window);
-    if (!events.empty() || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive()) frames_awake = frames_after_change;
+    if (!events.empty() || input.waiting() || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive())
+      frames_awake = frames_after_change;
     for (Event& event : events) hub.post(std::move(event));
   }
   hub.close(memory.discard);

@@ -10,6 +10,7 @@
 
 #include "common/diagnostic.h"
 #include "common/files.h"
+#include "gui/views/new_scene.h"
 
 namespace spacetime::gui {
 namespace {
@@ -50,16 +51,15 @@ const std::vector<Example>& examples() {
   return all;
 }
 
-// Sessions that ended without being saved, by a crash or a power cut.
 void draw_left_behind(Ui& ui) {
   if (ui.state.left.empty()) return;
   ImGui::PushFont(ui.memory.fonts.strong);
   ImGui::TextUnformatted("Not saved when it ended");
   ImGui::PopFont();
   for (const LeftBehind& left : ui.state.left) {
-    const std::string name = left.file.empty() ? "a scene without a file" : std::string(fs::path(left.file).filename());
+    const std::string name = name_of(left);
     if (ImGui::Selectable(fmt::format("Go on with {}##{}", name, left.journal).c_str())) {
-      leave_for(ui, left.journal);
+      leave_for(ui, {Leaving::To::file, left.journal});
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
@@ -95,7 +95,7 @@ void draw_welcome(Ui& ui) {
                          ImGui::CalcTextSize(example.about.c_str(), nullptr, false, width - ui.scaled(16)).y +
                          ui.scaled(10);
     if (ImGui::Selectable(("##" + example.file).c_str(), false, 0, {width, height})) {
-      leave_for(ui, example.file, true);
+      leave_for(ui, {Leaving::To::example, example.file});
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
@@ -108,6 +108,14 @@ void draw_welcome(Ui& ui) {
   }
   if (examples().empty()) ImGui::TextDisabled("The examples were not found beside the program.");
   ImGui::EndChild();
+  if (ImGui::Button("New scene")) {
+    leave_for(ui, {Leaving::To::fresh});
+    ui.memory.welcome = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ui.here("new scene");
+  ui.help("Begin with a scene of a few lines that can be run and changed.");
+  ImGui::SameLine();
   if (ImGui::Button("Open a file...")) {
     ui.memory.files.dialog = FilesMemory::Dialog::open;
     ui.memory.welcome = false;
@@ -135,7 +143,7 @@ void draw_shortcuts(Ui& ui) {
       {"Ctrl+Shift+Z, Ctrl+Y", "Redo"},
       {"Ctrl+C, Ctrl+V", "Copy, paste a pose"},
       {"Ctrl+Shift+V", "Paste a pose mirrored"},
-      {"Ctrl+O, Ctrl+S", "Open, save"},
+      {"Ctrl+N, Ctrl+O, Ctrl+S", "New scene, open, save"},
       {"Ctrl+E", "Examples"},
       {"1, 2, 3, 4", "View from the front, the side, above, freely"},
       {"F", "Frame the figure"},
@@ -265,7 +273,7 @@ void draw_files(Ui& ui) {
   const bool cancelled = ImGui::Button("Cancel", {ui.scaled(100), 0}) || escaped();
   if (possible && (pressed || entered)) {
     if (open)
-      leave_for(ui, chosen);
+      leave_for(ui, {Leaving::To::file, chosen});
     else
       ui.emit(Save{chosen});
   }
@@ -276,54 +284,56 @@ void draw_files(Ui& ui) {
   ImGui::EndPopup();
 }
 
-void go(Ui& ui, const std::string& file, bool example) {
-  ui.memory.quit_asked = false;
-  ui.memory.after_saving.clear();
-  if (file.empty()) {
-    ui.memory.quit = true;
-  } else if (example) {
-    // A copy without a file of its own: saving asks for one, and the example stays as it is.
-    try {
-      ui.emit(OpenText{read_text(file)});
-    } catch (const InputError& error) {
-      ui.emit(FileFailed{file, error.what()});
-    }
-  } else {
-    ui.emit(Open{file});
+void go(Ui& ui, const Leaving& leaving) {
+  ui.memory.leaving.reset();
+  switch (leaving.to) {
+    case Leaving::To::quit:
+      ui.memory.quit = true;
+      return;
+    case Leaving::To::file:
+      return ui.emit(Open{leaving.file});
+    case Leaving::To::fresh:
+      return ui.emit(OpenText{std::string(new_scene)});
+    case Leaving::To::example:
+      // A copy without a file of its own: saving asks for one, and the example stays as it is.
+      try {
+        ui.emit(OpenText{read_text(leaving.file)});
+      } catch (const InputError& error) {
+        ui.emit(FileFailed{leaving.file, error.what()});
+      }
   }
 }
 
 void draw_guard(Ui& ui) {
-  if (!ui.memory.quit_asked) return;
+  if (!ui.memory.leaving) return;
   if (!ImGui::IsPopupOpen("Unsaved changes")) ImGui::OpenPopup("Unsaved changes");
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
   const std::string name = ui.state.file.empty() ? "This scene" : std::string(fs::path(ui.state.file).filename());
   ImGui::Text("%s has changes that are not saved.", name.c_str());
   ImGui::Spacing();
-  const std::string next = ui.memory.after_saving;
+  const Leaving next = *ui.memory.leaving;
   if (ImGui::Button("Save", {ui.scaled(110), 0})) {
     if (ui.state.file.empty()) {
       ui.memory.files.dialog = FilesMemory::Dialog::save;
-      ui.memory.quit_asked = false;
+      ui.memory.leaving.reset();
     } else {
       ui.emit(Save{});
-      go(ui, next, ui.memory.after_is_example);
+      go(ui, next);
     }
     ImGui::CloseCurrentPopup();
   }
   ui.here("guard save");
   ImGui::SameLine();
   if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
-    ui.memory.discard = next.empty();
-    go(ui, next, ui.memory.after_is_example);
+    ui.memory.discard = next.to == Leaving::To::quit;
+    go(ui, next);
     ImGui::CloseCurrentPopup();
   }
   ui.here("guard discard");
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {ui.scaled(110), 0})) {
-    ui.memory.quit_asked = false;
-    ui.memory.after_saving.clear();
+    ui.memory.leaving.reset();
     ImGui::CloseCurrentPopup();
   }
   ui.here("guard cancel");
@@ -331,6 +341,10 @@ void draw_guard(Ui& ui) {
 }
 
 }  // namespace
+
+std::string name_of(const LeftBehind& left) {
+  return left.file.empty() ? "a scene without a file" : std::string(fs::path(left.file).filename());
+}
 
 std::string examples_folder() {
   std::error_code none;
@@ -340,12 +354,10 @@ std::string examples_folder() {
   return "";
 }
 
-void leave_for(Ui& ui, const std::string& file, bool example) {
+void leave_for(Ui& ui, Leaving leaving) {
   ui.memory.discard = false;
-  if (!unsaved(ui.state)) return go(ui, file, example);
-  ui.memory.quit_asked = true;
-  ui.memory.after_saving = file;
-  ui.memory.after_is_example = example;
+  if (!unsaved(ui.state)) return go(ui, leaving);
+  ui.memory.leaving = std::move(leaving);
 }
 
 void draw_dialogs(Ui& ui) {

@@ -34,20 +34,25 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
   std::string text = ui.state.drafts.at(about);
   ImGui::PushFont(ui.memory.fonts.code);
   ImGui::SetNextItemWidth(-1);
-  if (ui.memory.focused_draft != about) ImGui::SetKeyboardFocusHere();
-  ui.memory.focused_draft = about;
+  if (!ui.memory.focused_drafts.contains(about)) {
+    // What is scrolled away takes no keyboard.
+    if (ImGui::IsRectVisible({1, ImGui::GetFrameHeight()})) ui.memory.focused_drafts.insert(about);
+    ImGui::SetKeyboardFocusHere();
+    ImGui::SetScrollHereY(0.7F);
+  }
   const bool entered =
       ImGui::InputTextWithHint(("##draft " + about).c_str(), hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.here("draft " + about);
   ImGui::PopFont();
   if (text != ui.state.drafts.at(about)) ui.emit(Draft{about, text});
-  if (entered) ui.memory.focused_draft.clear();  // stays where it was typed, in case of a mistake
-  ui.notices(place, about);
+  if (entered) ui.memory.focused_drafts.erase(about);  // stays where it was typed, in case of a mistake
+  const bool told = ui.notices(place, about);
   const bool applied = ImGui::SmallButton(("Apply##" + about).c_str());
   if ((entered || applied) && !text.empty()) ui.act(prefix + text, place, about);
   ui.here("apply " + about);
   ImGui::SameLine();
   if (ImGui::SmallButton(("Cancel##" + about).c_str())) ui.emit(Draft{about, std::nullopt});
+  if (told) ImGui::SetScrollHereY(1);
 }
 
 void draw_marks(Ui& ui, const Equation& equation) {
@@ -148,7 +153,7 @@ void draw_row(Ui& ui, const Equation& equation) {
 
 void draw_equations(Ui& ui) {
   const State& s = ui.state;
-  if (s.drafts.empty()) ui.memory.focused_draft.clear();
+  std::erase_if(ui.memory.focused_drafts, [&](const std::string& about) { return !s.drafts.contains(about); });
   if (!has_problem(ui)) return;
   const Question& question = ui.question();
   for (const bool objective : {false, true}) {
@@ -176,7 +181,7 @@ void draw_equations(Ui& ui) {
         ImGui::TextDisabled("%s:", equation.name.c_str());
         draw_draft(ui, equation.name, replace_line(equation.name, ""), "");
       } else {
-        ui.notices(place, equation.name);
+        if (ui.notices(place, equation.name)) ImGui::SetScrollHereY(1);
       }
     }
     if (s.drafts.contains(fresh))
@@ -184,7 +189,7 @@ void draw_equations(Ui& ui) {
                  objective ? "calm: integral(x''^2) weight 1e-3" : "name: left = right  at 1");
     ImGui::Spacing();
   }
-  ui.notices(place);
+  if (ui.notices(place)) ImGui::SetScrollHereY(1);
 }
 
 }  // namespace spacetime::gui

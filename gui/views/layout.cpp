@@ -68,7 +68,10 @@ void draw_window(Ui& ui, SceneView& scene) {
   take_keys(ui);
   // A scene with mistakes shows them.
   const bool wrong = ui.state.scene && !ui.state.scene->diagnostics.empty();
-  if (wrong && m.mistaken != ui.state.scene) m.tab_right = text_tab;
+  if (wrong && m.mistaken != ui.state.scene) {
+    m.tab_right = text_tab;
+    m.scroll_to_line = ui.state.scene->diagnostics.front().span.line;
+  }
   m.mistaken = wrong ? ui.state.scene : nullptr;
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport.Pos);

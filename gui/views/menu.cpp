@@ -32,14 +32,30 @@ void run(Ui& ui) {
 
 bool can_run(const Ui& ui) { return ui.state.scene && ui.state.scene->problem && !ui.state.running; }
 
+bool begin_menu(Ui& ui, const char* name) {
+  if (ImGui::BeginMenu(name)) return true;
+  ui.here(std::string("menu ") + name);
+  return false;
+}
+
 void draw_file_menu(Ui& ui) {
-  if (!ImGui::BeginMenu("File")) return;
+  if (!begin_menu(ui, "File")) return;
+  if (ImGui::MenuItem("New scene", "Ctrl+N")) leave_for(ui, {Leaving::To::fresh});
+  ui.here("menu new");
   if (ImGui::MenuItem("Examples...", "Ctrl+E")) ui.memory.welcome = true;
   ui.here("menu examples");
   if (ImGui::MenuItem("Open...", "Ctrl+O")) ui.memory.files.dialog = FilesMemory::Dialog::open;
   if (ImGui::BeginMenu("Open recent", !ui.state.recent.empty())) {
     for (const std::string& file : ui.state.recent)
-      if (ImGui::MenuItem(file.c_str())) leave_for(ui, file);
+      if (ImGui::MenuItem(file.c_str())) leave_for(ui, {Leaving::To::file, file});
+    ImGui::EndMenu();
+  }
+  if (!ui.state.left.empty() && begin_menu(ui, "Not saved when it ended")) {
+    for (const LeftBehind& left : ui.state.left) {
+      if (ImGui::MenuItem((name_of(left) + "##" + left.journal).c_str()))
+        leave_for(ui, {Leaving::To::file, left.journal});
+      ui.here("menu recover " + name_of(left));
+    }
     ImGui::EndMenu();
   }
   ImGui::Separator();
@@ -52,12 +68,12 @@ void draw_file_menu(Ui& ui) {
     ui.memory.files.dialog = FilesMemory::Dialog::film;
   ui.here("menu film");
   ImGui::Separator();
-  if (ImGui::MenuItem("Quit", "Ctrl+Q")) leave_for(ui, "");
+  if (ImGui::MenuItem("Quit", "Ctrl+Q")) leave_for(ui, {});
   ImGui::EndMenu();
 }
 
 void draw_edit_menu(Ui& ui) {
-  if (!ImGui::BeginMenu("Edit")) return;
+  if (!begin_menu(ui, "Edit")) return;
   const State& s = ui.state;
   if (ImGui::MenuItem("Undo", "Ctrl+Z", false, can_undo(s))) ui.emit(Undo{});
   if (ImGui::MenuItem("Redo", "Ctrl+Y", false, can_redo(s))) ui.emit(Redo{});
@@ -77,7 +93,7 @@ void draw_edit_menu(Ui& ui) {
 }
 
 void draw_view_menu(Ui& ui) {
-  if (!ImGui::BeginMenu("View")) return;
+  if (!begin_menu(ui, "View")) return;
   SceneMemory& m = ui.memory.scene;
   if (ImGui::MenuItem("Front", "1")) turn(ui, View::front);
   if (ImGui::MenuItem("Side", "2")) turn(ui, View::side);
@@ -108,7 +124,7 @@ void draw_menu(Ui& ui) {
   draw_file_menu(ui);
   draw_edit_menu(ui);
   draw_view_menu(ui);
-  if (ImGui::BeginMenu("Help")) {
+  if (begin_menu(ui, "Help")) {
     if (ImGui::MenuItem("Shortcuts", "F1")) ui.memory.shortcuts = true;
     ImGui::Separator();
     ImGui::TextDisabled("The language's manual: symbolic/LANGUAGE.md");
@@ -229,10 +245,11 @@ void take_keys(Ui& ui) {
   }
   if (pressed(GLFW_KEY_F10) && can_run(ui)) ui.act(iterate_words(1).line, Notice::Place::optimisation);
   if (io.KeyCtrl) {
+    if (pressed(GLFW_KEY_N)) leave_for(ui, {Leaving::To::fresh});
     if (pressed(GLFW_KEY_O)) ui.memory.files.dialog = FilesMemory::Dialog::open;
     if (pressed(GLFW_KEY_E)) ui.memory.welcome = true;
     if (pressed(GLFW_KEY_S) && s.scene) save(ui);
-    if (pressed(GLFW_KEY_Q)) leave_for(ui, "");
+    if (pressed(GLFW_KEY_Q)) leave_for(ui, {});
     if (io.WantTextInput) return;
     if (pressed(GLFW_KEY_Z)) ui.emit(io.KeyShift ? Event(Redo{}) : Event(Undo{}));
     if (pressed(GLFW_KEY_Y)) ui.emit(Redo{});

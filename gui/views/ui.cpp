@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace spacetime::gui {
@@ -22,6 +23,7 @@ void refresh(Ui& ui) {
     m.question = question_of(s);
     m.measured = -1;
   }
+  std::erase_if(m.told, [&](const std::string& text) { return !std::ranges::count(s.notices, text, &Notice::text); });
   // What the optimizer has is newer than what the text says, and what is being dragged newer still.
   if (s.curves)
     for (const auto& [name, value] : s.curves->constants) m.question.constants[name] = value;
@@ -63,7 +65,8 @@ void Ui::help(const char* text) const {
   ImGui::EndTooltip();
 }
 
-void Ui::notices(Notice::Place place, const std::string& about) {
+bool Ui::notices(Notice::Place place, const std::string& about) {
+  bool fresh = false;
   for (std::size_t i = 0; i < state.notices.size(); ++i) {
     const Notice& notice = state.notices[i];
     if (notice.place != place || notice.about != about) continue;
@@ -72,9 +75,12 @@ void Ui::notices(Notice::Place place, const std::string& about) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour(notice.severity));
     ImGui::TextWrapped("%s", notice.text.c_str());
     ImGui::PopStyleColor();
+    here("told " + about);
     if (ImGui::IsItemClicked()) emit(Dismiss{static_cast<int>(i)});
     help("Click to put this message away.");
+    fresh |= memory.told.insert(notice.text).second;
   }
+  return fresh;
 }
 
 bool has_problem(const Ui& ui) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,12 @@ struct FilesMemory {
   std::string folder, name;
 };
 
+// What comes after the scene that is open.
+struct Leaving {
+  enum class To { quit, file, example, fresh } to = To::quit;
+  std::string file{};
+};
+
 struct Memory {
   Fonts fonts;
   Colours colours;
@@ -77,16 +84,16 @@ struct Memory {
   BarMemory bar;
   SpanMemory span;
   FilesMemory files;
-  std::string focused_draft;                    // the keyboard has been given to it
+  std::set<std::string> told;                   // the notices that were shown in the last frame
+  std::set<std::string> focused_drafts;         // the keyboard has been given to them
   bool drag_dropped = false;                    // by Esc: nothing more comes of it until the button is let go
   double bounds[2]{-1, 1};                      // being typed
   float left = 320, right = 330, bottom = 310;  // pixels at scale 1, of the panels
   int tab_left = -1, tab_right = -1;            // to be chosen in the next frame
   bool welcome = false, shortcuts = false;
-  bool quit_asked = false, quit = false;  // the window is to be closed
-  bool discard = false;                   // ... and what is not saved is to be thrown away
-  bool after_is_example = false;
-  std::string after_saving;  // what to open once the person has decided about unsaved changes
+  bool quit = false;               // the window is to be closed
+  bool discard = false;            // ... and what is not saved is to be thrown away
+  std::optional<Leaving> leaving;  // once the person has decided about unsaved changes
   std::string console, console_by;
   int scroll_to_line = 0;  // in the scene text
   int method = 0;
@@ -114,7 +121,8 @@ struct Ui {
   // Help that appears over the last item.
   void help(const char* text) const;
   // The notices of a place, about something or about nothing in particular.
-  void notices(Notice::Place place, const std::string& about = {});
+  // Whether one of them has come since the last frame.
+  bool notices(Notice::Place place, const std::string& about = {});
 };
 
 // Brings the memory up to the state, once a frame.

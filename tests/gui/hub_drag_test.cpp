@@ -30,7 +30,8 @@ TEST(Update, ADragSendsTheNewestValueAlone) {
   EXPECT_FALSE(table.state.steering);
 }
 
-TEST(Update, UndoDuringTheSolveAfterADragLeavesThatToBeRedone) {
+// A table where a drag of k to 1 was let go.
+Table let_go() {
   Table table;
   table.open();
   const Words words = set_words("k", 1);
@@ -41,20 +42,40 @@ TEST(Update, UndoDuringTheSolveAfterADragLeavesThatToBeRedone) {
   table.acknowledge(table.take("motion/set"));
   table.compile();
   table.done(table.take("action/do"), {{words.action, ""}});
+  return table;
+}
+
+// The `set` and the `solve` of a drag are one to the person: undone at once, and done again at once.
+TEST(Update, UndoDuringTheSolveAfterADragTakesBothBack) {
+  Table table = let_go();
   table.reach(0);
   table.compile();
   const Request run = table.take("action/do");
-  const std::string text = text_of(table.state);
   table.feed(Undo{});
-  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.state.present, 0);
   table.done(run, {{R"({"action":"iterate","iterations":3})", "iterate 3"}}, true);
   table.reach(3);
-  ASSERT_EQ(table.state.log.size(), 3U);
-  EXPECT_EQ(table.state.present, 1);
-  EXPECT_EQ(table.state.log[1].scene->text, text);
-  EXPECT_EQ(text_of(table.state), text);
+  ASSERT_EQ(table.state.log.size(), 2U);
+  EXPECT_EQ(table.state.present, 0);
+  EXPECT_EQ(text_of(table.state), "time\n");
   EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 0);
-  EXPECT_TRUE(can_redo(table.state));
+  ASSERT_TRUE(can_redo(table.state));
+  table.feed(Redo{});
+  EXPECT_EQ(table.state.present, 1);
+  EXPECT_EQ(table.state.log[1].text, "set k = 1\niterate 3");
+}
+
+TEST(Update, UndoBeforeTheSolveAfterADragTakesTheDragBack) {
+  for (const bool compiling : {false, true}) {
+    Table table = let_go();
+    if (compiling) table.reach(0);
+    ASSERT_EQ(table.state.present, 1);
+    ASSERT_EQ(table.count("scene/compile"), 1);
+    table.feed(Undo{});
+    EXPECT_EQ(table.state.present, 0);
+    EXPECT_EQ(table.state.waiting, 0);
+    EXPECT_FALSE(table.state.running);
+  }
 }
 
 // Solving would take a control point back to where it was: it is moved, shown, and moved again.

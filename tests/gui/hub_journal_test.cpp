@@ -85,6 +85,37 @@ TEST(HubJournal, BringsBackLogMotionsAndPlaceWithoutSolving) {
       hub, [&](const State&) { return journals(folder).empty(); }, "the journal to go");
 }
 
+// What somebody else wrote into its file while it was gone is told of, and not written over unasked.
+TEST(HubJournal, KnowsWhetherItsFileWasChangedMeanwhile) {
+  for (const bool changed : {false, true}) {
+    const std::string folder = scratch(changed ? "changed" : "unchanged"), file = scratch("meanwhile.scene");
+    {
+      Hub hub(daemons(folder));
+      write_text(file, text_of("examples/double_integrator.scene"));
+      hub.post(Open{file});
+      until(
+          hub, [](const State& state) { return state.present == 0; }, "the scene");
+      act(hub, "iterate 1");
+    }
+    if (changed) write_text(file, "time [0, 1]\n");
+    Hub hub(daemons(folder));
+    until(
+        hub, [](const State& state) { return !state.left.empty(); }, "what was left behind");
+    restore(hub, hub.state().left[0].journal);
+    hub.post(Save{});
+    until(
+        hub, [](const State& state) { return !unsaved(state) || !state.notices.empty(); }, "the file or a refusal");
+    EXPECT_EQ(unsaved(hub.state()), changed) << told(hub.state());
+    EXPECT_EQ(read_text(file) == "time [0, 1]\n", changed);
+    until(
+        hub, [&](const State& state) { return !changed || told(state).find("another program") != std::string::npos; },
+        "a word of it");
+    hub.post(Save{});
+    until(
+        hub, [](const State& state) { return !unsaved(state); }, "the file");
+  }
+}
+
 TEST(HubJournal, SavingBeforeLeavingIsWaitedFor) {
   for (const bool possible : {true, false}) {
     const std::string folder = scratch(possible ? "left" : "not_left");

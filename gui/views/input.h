@@ -1,0 +1,36 @@
+// Buttons and keys on their way to ImGui, which is told once a frame what is down.  What goes down and up again within
+// one frame, as it does when frames are slow, would never have been down; so each change has a frame of its own, and a
+// button goes down where the mouse was then.
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <deque>
+#include <optional>
+
+namespace spacetime::gui {
+
+class Input {
+ public:
+  void button(int which, bool down, const ImVec2& at);
+  void key(int glfw_key, bool down, int glfw_modifiers);
+
+  // Before ImGui's NewFrame: what is down in this frame, and where the mouse is; `mouse` is where it is by now.
+  void give(ImGuiIO& io, const ImVec2& mouse);
+  bool waiting() const { return !changes_.empty(); }  // for another frame
+
+ private:
+  struct Change {
+    bool key = false;  // or a button
+    int which = 0;
+    bool down = false;
+    ImVec2 at{};
+    int modifiers = 0;
+  };
+  std::deque<Change> changes_;
+  std::array<bool, IM_ARRAYSIZE(ImGuiIO::MouseDown)> buttons_{};
+  std::array<bool, IM_ARRAYSIZE(ImGuiIO::KeysDown)> keys_{};
+};
+
+}  // namespace spacetime::gui
