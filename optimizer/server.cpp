@@ -113,7 +113,7 @@ class Peer {
     const double unknowns = count(problem);
     session_ = std::make_unique<Session>(std::move(problem));
     session_->declare(std::numeric_limits<int>::max());
-    result.member("unknowns", unknowns);
+    result.member("unknowns", static_cast<int>(unknowns));
   }
 
   void update(const Node& params, Writer& result) {
@@ -167,12 +167,14 @@ class Peer {
     if (const auto fault = validate(motion, session.original())) {
       throw DocumentError("params", "/motion" + fault->path, fault->message);
     }
+    const int before = session.iterations();
     try {
       session.set_motion(motion);
     } catch (const CheckpointError& error) {
       throw DocumentError("params", "/motion" + error.path(), error.message());
     }
-    write_edit(result, {});
+    write_edit(result, {}, before);
+    if (run_) run_->since = session.iterations();  // what comes is counted on from the motion's own number
   }
 
   void sample(const Node& params, Writer& result) {
@@ -262,8 +264,7 @@ class Peer {
   // What must be performed to come to the same bits: the iterations of a run that goes on up to here, then `done`.
   // Messages other than actions follow what they write here.  What is left of a run after its last such message is
   // logged at its end.
-  void write_log(Writer& result, std::vector<PlacedAction> done) {
-    const int iteration = session_->iterations();
+  void write_log(Writer& result, std::vector<PlacedAction> done, int iteration) {
     result.member("iteration", iteration);
     result.key("log");
     result.list([&] {
@@ -278,9 +279,16 @@ class Peer {
     });
   }
 
-  void write_edit(Writer& result, std::vector<PlacedAction> done) {
+  void write_log(Writer& result, std::vector<PlacedAction> done) {
+    write_log(result, std::move(done), session_->iterations());
+  }
+
+  void write_edit(Writer& result, std::vector<PlacedAction> done, int iteration) {
     if (run_) run_->edited = true;
-    write_log(result, std::move(done));
+    write_log(result, std::move(done), iteration);
+  }
+  void write_edit(Writer& result, std::vector<PlacedAction> done) {
+    write_edit(result, std::move(done), session_->iterations());
   }
 
   void run(const Action& action, Writer& result, Call& call) {

@@ -76,11 +76,15 @@ void Connection::read() {
   }
   stream_->read_some(block_, [self = shared_from_this()](boost::system::error_code error, std::size_t bytes) {
     if (!error) return self->take({self->block_.data(), bytes});
-    self->reading_ends_ = true;
-    if (!self->conversation_) return self->ended();
+    if (!self->conversation_) {
+      self->reading_ends_ = true;
+      return self->ended();
+    }
+    if (error != boost::asio::error::eof) return self->cut();
     // Whoever has only closed its sending side still reads the answers.
-    if (error == boost::asio::error::eof) return self->conversation_->end_of_input();
-    self->cut();
+    if (auto frame = self->reader_.last(); frame && !self->reading_ends_) self->pass(std::move(*frame));
+    self->reading_ends_ = true;
+    self->conversation_->end_of_input();
   });
 }
 
@@ -96,10 +100,14 @@ void Connection::take(std::string_view bytes) {
     last_message_ = Clock::now();
     reading_ends_ = frame->ends;
     if (!conversation_) return refuse(*frame);
-    if (events_.passed) events_.passed(frame->text, true);
-    conversation_->receive(std::move(*frame));
+    pass(std::move(*frame));
   }
   read();
+}
+
+void Connection::pass(Frame frame) {
+  if (events_.passed) events_.passed(frame.text, true);
+  conversation_->receive(std::move(frame));
 }
 
 void Connection::refuse(const Frame& frame) {
@@ -223,14 +231,18 @@ void Connection::written(boost::system::error_code error) {
   write();
 }
 
-// Whether the peer has had nothing to say for too long, or has stopped inside a message.
-bool Connection::is_idle(Clock::time_point now) const {
-  if (reading_ends_) return false;
-  if (!conversation_) return now - last_message_ > refusal_patience;
-  if (conversation_->busy()) return false;
-  const std::chrono::duration<double> allowed(allowance_.idle);
-  return now - std::max(last_message_, last_written_) > allowed ||
-         (reader_.inside() && now - last_byte_ > stall_patience);
+// Why it ends, where the peer has had nothing to say for too long, or has stopped inside a message.
+std::optional<Error> Connection::too_quiet(Clock::time_point now) const {
+  if (reading_ends_ || (conversation_ && conversation_->busy())) return std::nullopt;
+  const std::chrono::duration<double> allowed(conversation_ ? allowance_.idle : refusal_patience.count());
+  const auto patience = std::min<std::chrono::duration<double>>(allowed, stall_patience);
+  if (reader_.begun() > 0 && now - last_byte_ > patience) {
+    return Error(Code::idle, "a message has stopped half-way, after " + std::to_string(reader_.begun()) +
+                                 " bytes, and nothing more of it came for " + amount(patience.count()) + " seconds");
+  }
+  if (now - std::max(last_message_, last_written_) <= allowed) return std::nullopt;
+  if (!conversation_) return beyond("sessions", allowance_, allowance_.sessions + 1);
+  return beyond("idle", allowance_, allowance_.idle);
 }
 
 // Ends a connection on which nothing has happened for too long, now and then.
@@ -243,8 +255,8 @@ void Connection::watch() {
     if (self->writing_ && now - self->last_written_ > std::chrono::duration<double>(self->allowance_.idle)) {
       return self->cut();
     }
-    if (self->is_idle(now)) {
-      self->send(answer(std::nullopt, beyond("idle", self->allowance_, self->allowance_.idle)));
+    if (const auto error = self->too_quiet(now)) {
+      self->send(answer(std::nullopt, *error));
       return self->finish();
     }
     self->watch();

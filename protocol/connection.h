@@ -48,6 +48,7 @@ class Connection final : public Outlet, public std::enable_shared_from_this<Conn
 
   void read();
   void take(std::string_view bytes);
+  void pass(Frame frame);
   bool too_much_waits() const;
   void refuse(const Frame& frame);
   void forget();
@@ -55,7 +56,7 @@ class Connection final : public Outlet, public std::enable_shared_from_this<Conn
   void write();
   void written(boost::system::error_code error);
   void watch();
-  bool is_idle(Clock::time_point now) const;
+  std::optional<Error> too_quiet(Clock::time_point now) const;
 
   boost::asio::io_context& context_;
   std::unique_ptr<Stream> stream_;

@@ -78,11 +78,11 @@ void Conversation::receive(Frame frame) {
     return;
   }
   const std::size_t bytes = frame.text.size();
-  if (bytes > short_message) return enqueue({{}, std::move(frame.text), bytes, true});
+  if (bytes > short_message) return enqueue({{}, std::move(frame.text), bytes, true, false});
   auto request = understood(frame.text);
   if (!request) return;
   if (request->method == cancel_method) return control(*request);
-  enqueue({std::move(*request), {}, bytes, false});
+  enqueue({std::move(*request), {}, bytes, false, false});
 }
 
 // The request that a message is; nothing where the peer has been told that it is none.
@@ -129,10 +129,12 @@ void Conversation::control(const Request& request) {
   try {
     const Node params(request.params, "params");
     params.object({"id"});
-    const Json& id = params["id"].json();
-    if (id.is_string() || id.is_number_integer()) cancel(id.dump());
+    const Node id = params["id"];
+    if (!id.json().is_string() && !id.json().is_number_integer()) id.expected("a string or an integer");
+    cancel(id.json().dump());
+    if (request.id) outlet_.send(answer(request.id, "{}"));
   } catch (const InputError&) {
-    // A notification has no answer, whatever is wrong with it.
+    if (request.id) outlet_.send(answer(request.id, present_error()));
   }
 }
 
@@ -204,8 +206,9 @@ void Conversation::serve_all() {
       working_ = false;
       arrived_.wait(lock, [&] { return hung_up_ || (waiting_.empty() ? no_more_ : !outlet_.full()); });
       if (waiting_.empty()) break;
-      if (!read_front(lock)) continue;
-      request = take_front();
+      if (!read(waiting_.begin(), lock)) continue;
+      request = take(waiting_.begin());
+      for (Item& item : waiting_) item.passed = false;
       working_ = true;
       running_ = request.id;
       cancel_ = false;
@@ -214,30 +217,30 @@ void Conversation::serve_all() {
   }
 }
 
-// Parses the first request that waits, where that has not been done; false where nothing of it is left to do.
-bool Conversation::read_front(std::unique_lock<std::mutex>& lock) {
-  if (!waiting_.front().unread) return true;
-  const std::string text = std::move(waiting_.front().text);
+// Parses a request that waits, where that has not been done; false where nothing of it is left to do.
+bool Conversation::read(Place place, std::unique_lock<std::mutex>& lock) {
+  if (!place->unread) return true;
+  const std::string text = std::move(place->text);
   lock.unlock();
   auto request = understood(text);
   lock.lock();
-  if (waiting_.empty()) return false;  // hung up; nobody else takes away what is not parsed
+  if (hung_up_) return false;  // it is gone; nobody else takes away what is not parsed
   const bool cancelled = request && request->id && cancelled_.erase(*request->id) > 0;
   if (!request || cancelled) {
     const Unpaid unpaid;
     if (cancelled) outlet_.send(answer(request->id, before_its_turn()));
-    take_front();
+    take(place);
     return false;
   }
-  waiting_.front().request = std::move(*request);
-  waiting_.front().unread = false;
+  place->request = std::move(*request);
+  place->unread = false;
   return true;
 }
 
-Request Conversation::take_front() {
-  Request request = std::move(waiting_.front().request);
-  waiting_bytes_ -= waiting_.front().bytes;
-  waiting_.pop_front();
+Request Conversation::take(Place place) {
+  Request request = std::move(place->request);
+  waiting_bytes_ -= place->bytes;
+  waiting_.erase(place);
   if (waiting_.empty()) cancelled_.clear();
   return request;
 }
@@ -338,7 +341,10 @@ void Conversation::greet(const Node& params, Writer& result) {
   });
   result.key("limits");
   result.object([&] {
-    for (const Bound& bound : bounds) result.member(bound.name, allowance_.*bound.value);
+    for (const Bound& bound : bounds) {
+      result.key(bound.name);
+      result.json(amount(allowance_.*bound.value));
+    }
   });
 }
 
@@ -360,18 +366,26 @@ Turn Conversation::turn_of(const Request& request) const {
   return method->turn ? method->turn(request.params) : Turn::waits;
 }
 
+// What can be done between two steps is done in its order, past runs that wait: an edit is not held up by what is to
+// come after the run that it is meant for.  Nothing passes what ends the run, or the connection.
 bool Conversation::go_on(Work& work) {
   for (;;) {
     Request request;
     {
       std::unique_lock lock(mutex_);
       if (cancel_ || hung_up_) return false;
-      if (waiting_.empty() || outlet_.full()) return true;
-      if (!read_front(lock)) continue;
-      const Turn turn = turn_of(waiting_.front().request);
+      if (outlet_.full()) return true;
+      const auto place = std::ranges::find(waiting_, false, &Item::passed);
+      if (place == waiting_.end()) return true;
+      if (!read(place, lock)) continue;
+      const Turn turn = turn_of(place->request);
       if (turn == Turn::ends) return false;
-      if (turn == Turn::waits) return !cancel_;
-      request = take_front();
+      if (place->request.method == "exit") return !cancel_;
+      if (turn == Turn::waits) {
+        place->passed = true;
+        continue;
+      }
+      request = take(place);
     }
     serve(std::move(request), &work);
   }

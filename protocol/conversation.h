@@ -3,7 +3,7 @@
 #pragma once
 
 #include <condition_variable>
-#include <deque>
+#include <list>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -48,8 +48,10 @@ class Conversation {
     std::string text;  // where it is not parsed yet
     std::size_t bytes = 0;
     bool unread = false;  // not parsed yet, or just now
+    bool passed = false;  // found to wait for the end of what is worked on
   };
-  class Work;  // a Call
+  using Place = std::list<Item>::iterator;  // stays good while others come and go
+  class Work;                               // a Call
 
   void enqueue(Item item);
   void control(const Request& request);
@@ -64,8 +66,8 @@ class Conversation {
   // The session's thread.
   void run();
   void serve_all();
-  bool read_front(std::unique_lock<std::mutex>& lock);
-  Request take_front();
+  bool read(Place place, std::unique_lock<std::mutex>& lock);
+  Request take(Place place);
   void serve(Request request, Work* running);
   void perform(Request& request, Writer& result, Work& work);
   void greet(const Node& params, Writer& result);
@@ -79,7 +81,7 @@ class Conversation {
 
   mutable std::mutex mutex_;  // of all that follows
   std::condition_variable arrived_;
-  std::deque<Item> waiting_;
+  std::list<Item> waiting_;
   std::size_t waiting_bytes_ = 0;
   std::set<std::string> cancelled_;        // ids that may be in messages that are not parsed yet
   std::optional<std::string> running_;     // id of what is worked on

@@ -47,6 +47,19 @@ std::string too_long(std::string_view found, std::size_t most) {
   return "a message of " + std::string(found) + " bytes, more than the limit of " + std::to_string(most);
 }
 
+bool is_letter(char character) { return std::isalpha(static_cast<unsigned char>(character)) != 0; }
+
+// The beginning of what should have been something else.
+std::string beginning(std::string_view found) {
+  constexpr std::size_t longest = 40;
+  const auto line = found.substr(0, found.find_first_of("\r\n"));
+  return "'" + std::string(line.substr(0, longest)) + (line.size() > longest ? "..." : "") + "'";
+}
+
+std::string no_header(std::string_view found) {
+  return "expected a header \"Content-Length: N\" and an empty line before the message, found " + beginning(found);
+}
+
 }  // namespace
 
 std::optional<Frame> FrameReader::next() {
@@ -54,8 +67,7 @@ std::optional<Frame> FrameReader::next() {
   if (framing_ == Framing::unknown) {
     skip_blanks();
     if (begin_ == buffer_.size()) return std::nullopt;
-    const bool letter = std::isalpha(static_cast<unsigned char>(buffer_[begin_])) != 0;
-    framing_ = letter ? Framing::headers : Framing::lines;
+    framing_ = is_letter(buffer_[begin_]) ? Framing::headers : Framing::lines;
   }
   return framing_ == Framing::headers ? next_with_headers() : next_line();
 }
@@ -79,13 +91,20 @@ std::optional<Frame> FrameReader::next_line() {
     }
     Frame frame{std::string(trimmed(rest.substr(0, end)))};
     drop(end + 1);
-    if (!frame.text.empty()) return frame;
+    if (frame.text.empty()) continue;
+    if (!is_letter(frame.text.front())) return frame;
+    return Frame{"expected a message that begins with '{', found " + beginning(frame.text) +
+                     ": this connection has one message a line, as its first byte said",
+                 Frame::Kind::broken};
   }
 }
 
 std::optional<Frame> FrameReader::next_with_headers() {
   skip_blanks();
   const std::string_view rest = std::string_view(buffer_).substr(begin_);
+  if (!rest.empty() && !is_letter(rest.front())) {
+    return end(Frame::Kind::broken, no_header(rest) + ": this connection has headers, as its first byte said");
+  }
   std::size_t headers = rest.npos, body = 0;  // where the empty line and what follows it begin
   for (std::size_t at = 0, end; headers == rest.npos && (end = rest.find('\n', at)) != rest.npos; at = end + 1) {
     if (trimmed(rest.substr(at, end - at)).empty()) headers = at, body = end + 1;
@@ -96,15 +115,26 @@ std::optional<Frame> FrameReader::next_with_headers() {
   if (headers == rest.npos) return std::nullopt;
   const auto length = content_length(rest.substr(0, headers));
   if (!length) {
-    return end(Frame::Kind::broken,
-               "expected a header \"Content-Length: N\" and an empty line before the message, or one message a line "
-               "that begins with '{'");
+    return end(Frame::Kind::broken, no_header(rest) + ", or one message a line that begins with '{'");
   }
   if (*length > most_bytes_) return end(Frame::Kind::too_long, too_long(std::to_string(*length), most_bytes_));
   if (rest.size() - body < *length) return std::nullopt;
   Frame frame{std::string(rest.substr(body, *length))};
   drop(body + *length);
   return frame;
+}
+
+std::optional<Frame> FrameReader::last() {
+  if (ended_ || framing_ == Framing::unknown) return std::nullopt;
+  if (framing_ == Framing::lines) {
+    Frame frame{skipping_ ? std::string() : std::string(trimmed(std::string_view(buffer_).substr(begin_)))};
+    drop(begun());
+    return frame.text.empty() ? std::nullopt : std::optional(std::move(frame));
+  }
+  skip_blanks();
+  if (begun() == 0) return std::nullopt;
+  return end(Frame::Kind::broken, "the input ended inside a message, of which, with its headers, " +
+                                      std::to_string(begun()) + " bytes came");
 }
 
 void FrameReader::skip_blanks() {

@@ -18,7 +18,7 @@ struct Frame {
   enum class Kind {
     message,
     too_long,  // a message above the limit: a line is skipped, what has headers ends the stream
-    broken,    // no header at all where one should be: ends the stream
+    broken,    // no header at all where one should be, which ends the stream; or one where a line should be
   } kind = Kind::message;
   bool ends = false;  // nothing more can be understood
 };
@@ -31,8 +31,10 @@ class FrameReader {
 
   void add(std::string_view bytes) { buffer_.append(bytes); }
   std::optional<Frame> next();  // nothing: more bytes are needed
+  std::optional<Frame>
+  last();  // what is left where no more come: a line without its end, or that a message is cut short
 
-  bool inside() const { return begin_ < buffer_.size(); }  // a message has begun and is not complete
+  std::size_t begun() const { return buffer_.size() - begin_; }  // bytes of a message that is not complete
   Framing framing() const { return framing_; }
 
  private:

@@ -1,6 +1,7 @@
 #include "protocol/rpc.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "protocol/strict.h"
 #include "protocol/writer.h"
@@ -13,12 +14,42 @@ constexpr std::string_view message_name = "message";
 
 std::optional<std::string> id_of(const Node& node) {
   const auto member = node.find("id");
-  if (!member || member->is_null()) return std::nullopt;
+  if (!member) return std::nullopt;
   const Json& json = member->json();
   if (!json.is_string() && !json.is_number_integer()) member->expected("a string or an integer");
   std::string text = json.dump();
   if (text.size() > most_id_bytes) member->refuse("an id of more than " + std::to_string(most_id_bytes) + " bytes");
   return text;
+}
+
+// The member "id" of a message that cannot be read as a whole, so that whoever waits for its answer gets one; nothing
+// where it is no JSON, or the member is not there once.
+std::optional<std::string> id_within(std::string_view text) {
+  std::optional<std::string> found;
+  std::size_t depth = 0, value = text.npos;  // ... where a value of the outermost object begins
+  std::string_view name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char character = text[i];
+    if (character == '"') {
+      const std::size_t begin = i;
+      for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\';
+      if (depth == 1 && value == text.npos) name = text.substr(begin, std::min(i + 1, text.size()) - begin);
+    } else if (character == ':' && depth == 1 && value == text.npos) {
+      value = i + 1;
+    } else if (depth == 1 && (character == ',' || character == '}')) {
+      if (name == "\"id\"" && value != text.npos) {
+        if (found) return std::nullopt;
+        found = text.substr(value, i - value);
+      }
+      value = text.npos;
+    }
+    if (character == '{' || character == '[') ++depth;
+    if ((character == '}' || character == ']') && depth > 0) --depth;
+  }
+  if (!found || !Json::accept(text)) return std::nullopt;
+  const Json id = Json::parse(*found);
+  found = id.dump();
+  return (id.is_string() || id.is_number_integer()) && found->size() <= most_id_bytes ? found : std::nullopt;
 }
 
 std::string opened(const std::optional<std::string>& id) {
@@ -51,6 +82,7 @@ std::size_t depth_of(std::string_view text, std::size_t most) {
 
 Request read_request(std::string_view text, std::size_t depth, std::optional<std::string>& id) {
   if (depth_of(text, depth) > depth) {
+    id = id_within(text);
     throw Error(Code::too_deep,
                 "more than " + std::to_string(depth) + " objects and lists inside one another: send it flatter",
                 limit_data("depth", static_cast<double>(depth)));
@@ -59,13 +91,14 @@ Request read_request(std::string_view text, std::size_t depth, std::optional<std
   try {
     tree = parse(text, message_name);
   } catch (const DocumentError& error) {
+    id = id_within(text);
     throw Error(Code::not_json, error.what());
   }
   try {
     const Node node(tree, message_name);
     if (tree.is_array()) node.refuse("send requests one by one, not as a list");
-    id = id_of(node);
     if (node.find("result") || node.find("error")) return {};
+    id = id_of(node);
     node.object({"jsonrpc", "method"}, {"id", "params"});
     if (node["jsonrpc"].string() != "2.0") node["jsonrpc"].expected("\"2.0\"");
     Request request{id, node["method"].string(), Json::object()};
@@ -105,11 +138,17 @@ std::string request(std::string_view id, std::string_view method, std::string_vi
          "}";
 }
 
+std::string amount(double number) {
+  char digits[512];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
+}
+
 std::string limit_data(std::string_view name, double most) {
   Writer to(false);
   to.object([&] {
     to.member("limit", name);
-    to.member("most", most);
+    to.key("most");
+    to.json(amount(most));
     to.member("option", "--limit-" + std::string(name));
   });
   return to.take();

@@ -51,7 +51,7 @@ class Error : public std::runtime_error {
 
 // What a peer sent: a request, or a notification where it has no id.
 struct Request {
-  std::optional<std::string> id;  // as JSON text: a string or an integer
+  std::optional<std::string> id;  // as JSON text: a string or an integer; null is none
   std::string method;
   Json params = Json::object();
 };
@@ -70,6 +70,9 @@ std::string answer(const std::optional<std::string>& id, std::string_view result
 std::string answer(const std::optional<std::string>& id, const Error& error);
 std::string notification(std::string_view method, std::string_view params);
 std::string request(std::string_view id, std::string_view method, std::string_view params);
+
+// A limit, or what is beyond it: digits without an exponent.
+std::string amount(double number);
 
 // {"limit": name, "most": most, "option": "--limit-name"}: the data of an error about a limit.
 std::string limit_data(std::string_view name, double most);

@@ -22,10 +22,10 @@ void write_statistics(Writer& to, const Statistics& s) {
   to.key("statistics");
   to.object([&] {
     to.member("tree_nodes", s.tree_nodes);
-    to.member("shared_nodes", static_cast<double>(s.shared_nodes));
-    to.member("operations", static_cast<double>(s.operations));
-    to.member("programs", static_cast<double>(s.programs));
-    to.member("derived", static_cast<double>(s.derived));
+    to.member("shared_nodes", static_cast<int>(s.shared_nodes));
+    to.member("operations", static_cast<int>(s.operations));
+    to.member("programs", static_cast<int>(s.programs));
+    to.member("derived", static_cast<int>(s.derived));
     to.key("milliseconds");
     to.object([&] {
       to.member("parse", s.milliseconds.parse);
@@ -45,8 +45,8 @@ void write_outline(Writer& to, const std::vector<Outlined>& outline) {
       if (!statement.name.empty()) to.member("name", statement.name);
       to.member("line", statement.line);
       to.member("column", statement.column);
-      to.member("begin", static_cast<double>(statement.begin));
-      to.member("end", static_cast<double>(statement.end));
+      to.member("begin", static_cast<int>(statement.begin));
+      to.member("end", static_cast<int>(statement.end));
       to.member("action", statement.action);
     });
   });
@@ -123,10 +123,10 @@ class Peer {
     result.key("counts");
     result.object([&] {
       result.member("tree_nodes", sizes.nodes.tree);
-      result.member("shared_nodes", static_cast<double>(sizes.nodes.shared));
-      result.member("values", static_cast<double>(sizes.values));
-      result.member("jacobian", static_cast<double>(sizes.jacobian));
-      result.member("hessian", static_cast<double>(sizes.hessian));
+      result.member("shared_nodes", static_cast<int>(sizes.nodes.shared));
+      result.member("values", static_cast<int>(sizes.values));
+      result.member("jacobian", static_cast<int>(sizes.jacobian));
+      result.member("hessian", static_cast<int>(sizes.hessian));
     });
   }
 

@@ -10,16 +10,20 @@ namespace {
 
 constexpr std::size_t most = 100;
 
+std::string text_of(const Frame& frame) {
+  const char* kind[] = {"", "too long: ", "broken: "};
+  return kind[static_cast<int>(frame.kind)] + frame.text;
+}
+
+// What a reader finds in a stream that comes in these pieces and ends.
 std::vector<std::string> frames(const std::vector<std::string_view>& pieces) {
   FrameReader reader(most);
   std::vector<std::string> found;
   for (const auto piece : pieces) {
     reader.add(piece);
-    while (const auto frame = reader.next()) {
-      const char* kind[] = {"", "too long: ", "broken: "};
-      found.push_back(kind[static_cast<int>(frame->kind)] + frame->text);
-    }
+    while (const auto frame = reader.next()) found.push_back(text_of(*frame));
   }
+  if (const auto frame = reader.last()) found.push_back("last: " + text_of(*frame));
   return found;
 }
 
@@ -32,7 +36,7 @@ const std::string headers =
 TEST(Framing, WhatAStreamHoldsWhereverItIsCut) {
   for (const std::string& stream : {lines, headers}) {
     const auto whole = frames({stream});
-    EXPECT_EQ(whole.size(), 4u);
+    EXPECT_EQ(whole.size(), stream == lines ? 5u : 4u);
     std::vector<std::string_view> bytes;
     for (std::size_t k = 0; k < stream.size(); ++k) {
       const std::string_view view = stream;
@@ -47,7 +51,7 @@ TEST(Framing, MessagesAreThoseThatWereSent) {
   EXPECT_EQ(frames({lines}),
             (std::vector<std::string>{"{\"a\": 1}", "[2]",
                                       "too long: a message of more than 100 bytes, more than the limit of 100",
-                                      "{\"b\": 3}"}));
+                                      "{\"b\": 3}", "last: unfinished"}));
   EXPECT_EQ(frames({headers}), (std::vector<std::string>{"{\"a\":1}", "[\n]", "", "{}"}));
   for (const auto framing : {Framing::lines, Framing::headers}) {
     EXPECT_EQ(frames({framed("{\"c\":4}", framing)}), std::vector<std::string>{"{\"c\":4}"});
@@ -65,6 +69,25 @@ TEST(Framing, WhatNoPeerMaySay) {
   EXPECT_TRUE(frames({"A" + std::string(2000, 'a')})[0].starts_with("broken: "));
   EXPECT_TRUE(frames({"Content-Length: 101\r\n\r\n"})[0].starts_with("too long: "));
   EXPECT_TRUE(frames({"Content-Length: 10000000000\r\n\r\n{"})[0].starts_with("too long: "));
+}
+
+TEST(Framing, WhatIsCutShortOrFramedTheOtherWayIsTold) {
+  const auto told = [](const std::string& stream) { return frames({stream}).back(); };
+  const std::string headed = "Content-Length: 2\r\n\r\n{}";
+  EXPECT_EQ(frames({headed, "\r\n"}).size(), 1u);
+  EXPECT_EQ(told(headed + "{"),
+            "broken: expected a header \"Content-Length: N\" and an empty line before the message, found '{': this "
+            "connection has headers, as its first byte said");
+  EXPECT_EQ(told(headed + headed.substr(0, 22)),
+            "last: broken: the input ended inside a message, of which, with its headers, 22 bytes came");
+  EXPECT_EQ(told("{}\n" + std::string(150, 'x')),
+            "too long: a message of more than 100 bytes, more than the limit of 100");
+  const auto mixed = frames({"{}\n" + headed + "\n"});
+  ASSERT_EQ(mixed.size(), 3u);
+  EXPECT_EQ(mixed[1],
+            "broken: expected a message that begins with '{', found 'Content-Length: 2': this connection has one "
+            "message a line, as its first byte said");
+  EXPECT_EQ(mixed[2], "{}");
 }
 
 }  // namespace

@@ -58,6 +58,9 @@ class Conversations(unittest.TestCase):
                 whole = [str(m) for m in everything(daemon, data, framing, lambda data: [data])]
                 for k in range(0, len(data), 7):
                     found = [str(m) for m in everything(daemon, data[:k], framing, lambda data: [data])]
+                    told = [message for message in found if "'id': None" in message and "'code': -32700" in message]
+                    self.assertLessEqual(len(told), 1)  # what is cut short
+                    found = [message for message in found if message not in told]
                     self.assertEqual(found, whole[:len(found)])
             self.assertEqual(daemon.end(), 0)
 

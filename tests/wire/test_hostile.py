@@ -230,9 +230,45 @@ class Limits(unittest.TestCase):
             idle.greet()
             stopped.greet()
             stopped.send_raw(b'{"jsonrpc"')
+            sentences = []
             for each in (idle, stopped):
-                self.assertEqual([m["error"]["code"] for m in each.rest()], [-32016])
+                told = each.rest()
+                self.assertEqual([m["error"]["code"] for m in told], [-32016])
+                sentences.append(told[0]["error"]["message"])
                 each.close()
+            self.assertRegex(sentences[0], "without a request")
+            self.assertRegex(sentences[1], "half-way, after 10 bytes, .* for 0.3 seconds")
+
+    def test_what_the_end_of_the_input_cuts_short_is_told(self):
+        asked = b'{"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"protocol": 1}}'
+        for transport in ("stdio", "unix"):
+            for framing, end in (("lines", asked), ("lines", asked[:-1]), ("headers", peer.framed(asked, "headers")[:-1]),
+                                 ("headers", b"Content-Le")):
+                with peer.Daemon("symbolic", transport) as daemon:
+                    with daemon.connect(framing) as connection:
+                        connection.send_raw(peer.framed(asked.replace(b"1,", b"0,"), framing) + end)
+                        connection.half_close()
+                        told = {message["id"]: message for message in connection.rest()}
+                        self.assertEqual(set(told), {0, 1 if end == asked else None})
+                        if end == asked:
+                            self.assertIn("once", told[1]["error"]["message"])
+                        else:
+                            self.assertEqual(told[None]["error"]["code"], -32700)
+
+    def test_framings_are_not_mixed(self):
+        asked = b'{"jsonrpc": "2.0", "id": 1, "method": "rpc.discover"}'
+        with peer.Daemon("symbolic", "unix") as daemon:
+            with daemon.connect("headers") as connection:
+                connection.send_raw(peer.framed(asked, "headers") + b"{")
+                told = next(m["error"] for m in connection.rest() if m["id"] is None)
+                self.assertEqual(told["code"], -32700)
+                self.assertRegex(told["message"], "found '{': this connection has headers")
+            with daemon.connect("lines") as connection:
+                connection.send_raw(asked + b"\n" + peer.framed(b"{}", "headers") + b"\n" + asked + b"\n")
+                answers = [connection.receive() for _ in range(4)]
+                told = [m["error"] for m in answers if m["id"] is None]
+                self.assertEqual([error["code"] for error in told], [-32700, -32600])
+                self.assertRegex(told[0]["message"], "found 'Content-Length: 2': this connection has one message a line")
 
 
 if __name__ == "__main__":

@@ -153,7 +153,7 @@ class Runs(unittest.TestCase):
             values = session.peer.ask("sample", times=[0, 1, 2], expressions=[])
             self.assertEqual(values, {"times": [0, 1, 2], "values": {}, "poses": {}})
             back = session.peer.ask("motion/set", motion=start)
-            self.assertEqual(back["iteration"], 0)
+            self.assertGreaterEqual(back["iteration"], now["iterations"])
             session.peer.notify("$/cancelRequest", id=run)
             self.assertEqual(session.peer.answer(run)["result"]["status"], "stopped")
 
@@ -196,6 +196,72 @@ class Runs(unittest.TestCase):
                 session.note(session.peer.answer(run))
                 self.assertEqual(len(session.log), 3, "the edit has come after the run")
                 self.assertEqual(without_words(self.replayed(session.log)), without_words(session.motion()), method)
+
+    def test_edits_and_questions_pass_a_run_that_waits(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "iterations": 400})
+            session.wait_for_progress(2)
+            waits = session.peer.start("action/do", action={"action": "iterate", "iterations": 2})
+            edits = [session.peer.start("action/do", action={"action": "set", "constant": "BasketX", "value": value})
+                     for value in (2.8, 2.9)]
+            update = session.peer.start("problem/update", problem=self.problem)  # long: parsed in its turn
+            question = session.peer.start("sample", times=[0], expressions=[])
+            answers = []
+            while len(answers) < 4:
+                answers.append(session.peer.receive_answer())
+            self.assertEqual([answer["id"] for answer in answers], edits + [update, question])
+            self.assertEqual(answers[0]["result"]["log"][0]["action"], "solve")  # of the run that goes on
+            for answer in answers[:3]:
+                session.note(answer)
+            session.peer.notify("$/cancelRequest", id=run)
+            self.assertEqual(session.note(session.peer.receive_answer())["status"], "stopped")
+            last = session.peer.receive_answer()
+            self.assertEqual((last["id"], last["result"]["log"]), (waits, [{"action": "iterate", "iterations": 2}]))
+            session.note(last)
+            motion = session.motion()
+            self.assertEqual(motion["constants"]["BasketX"], 2.9)
+            self.assertEqual(without_words(self.replayed(session.log)), without_words(motion))
+
+    def test_a_new_problem_ends_runs_that_wait_before_it_and_edits_after_it_are_of_it(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            solve = {"action": "solve", "tolerance": 1e-300}
+            runs = [session.peer.start("action/do", action=solve) for _ in range(2)]
+            session.wait_for_progress(2)
+            load = session.peer.start("problem/load", problem=self.problem)
+            edit = session.peer.start("action/do", action={"action": "set", "constant": "BasketX", "value": 2.9})
+            answers = [session.peer.receive_answer() for _ in range(4)]
+            self.assertEqual([answer["id"] for answer in answers], runs + [load, edit])
+            self.assertEqual([answer["result"]["status"] for answer in answers[:2]], ["stopped"] * 2)
+            self.assertEqual(answers[1]["result"]["log"], [])
+            self.assertEqual(session.motion()["constants"]["BasketX"], 2.9)
+
+    def test_a_motion_set_during_a_run_logs_what_had_been_done(self):
+        with peer.Daemon("optimizer") as daemon, peer.Daemon("optimizer") as another:
+            session, later = Session(daemon), Session(another)
+            session.load(self.problem)
+            later.load(self.problem)
+            start = session.motion()
+            session.do(action="iterate", iterations=30)
+            later_motion = session.motion()
+            for motion in (start, later_motion):
+                begun = session.motion()["iterations"]
+                run = session.peer.start("action/do", action={"action": "solve", "tolerance": 1e-300, "iterations": 80})
+                session.wait_for_progress(2)
+                back = session.note(session.peer.answer(session.peer.start("motion/set", motion=motion)))
+                done = sum(action["iterations"] for action in back["log"])
+                self.assertGreater(done, 0)
+                self.assertEqual(back["iteration"], begun + done)
+                self.assertEqual(session.wait_for_progress()["iteration"], motion["iterations"] + 1)
+                outcome = session.note(session.peer.answer(run))
+                self.assertEqual(outcome["iteration"], motion["iterations"] + 80 - done)
+                later.peer.ask("motion/set", motion=motion)
+                for action in outcome["log"]:
+                    later.do(**action)
+                self.assertEqual(without_seconds(later.motion()), without_seconds(session.motion()))
 
     def test_an_edit_ends_a_solve_from_many_starts_and_stays(self):
         edits = [("action/do", {"action": {"action": "set", "constant": "BasketX", "value": 2.8}}),
