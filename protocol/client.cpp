@@ -140,18 +140,19 @@ class Client::Link {
     resent_ = -1;
     try {
       if (target_.address) {
-        attempt_ = protocol::connect(context_, *target_.address, target_.credentials,
-                                     [this](std::unique_ptr<Stream> stream, const std::string& why) {
-                                       attempt_.reset();
-                                       stream ? begin(std::move(stream)) : retry(why);
-                                     });
+        attempt_ = protocol::connect(
+            context_, *target_.address, target_.credentials,
+            [this](std::unique_ptr<Stream> stream, boost::system::error_code error, const std::string& why) {
+              attempt_.reset();
+              stream ? begin(std::move(stream)) : retry_after(error, why);
+            });
       } else {
         const auto [socket, child] = spawn(target_.program);
         process_ = child;
         begin(socket_stream(context_, socket));
       }
-    } catch (const InputError& error) {
-      return retry(error.what());
+    } catch (const InputError& error) {  // certificates that cannot be read; or too many processes
+      return target_.address ? lose(error.what()) : retry(error.what());
     }
     greeting_.expires_after(target_.patience);
     greeting_.async_wait([this, generation = generation_](boost::system::error_code stopped) {
@@ -184,6 +185,10 @@ class Client::Link {
   void send(int id, Asked& asked) {
     ++asked.tries;
     write(request(std::to_string(id), asked.method, asked.params));
+  }
+
+  void retry_after(boost::system::error_code error, const std::string& why) {
+    is_of_certificates(error) ? lose(why) : retry(why);
   }
 
   void retry(std::string why) {
@@ -249,7 +254,7 @@ class Client::Link {
   void read() {
     stream_->read_some(block_, [this, generation = generation_](boost::system::error_code error, std::size_t bytes) {
       if (generation != generation_ || !stream_) return;
-      if (error) return retry("the daemon has ended the connection: " + error.message());
+      if (error) return retry_after(error, "the daemon has ended the connection: " + error.message());
       reader_.add({block_.data(), bytes});
       while (auto frame = reader_.next()) {
         take(frame->text);
@@ -283,7 +288,7 @@ class Client::Link {
     if (!message.contains("id") || !message["id"].is_number_integer()) return;
     const int id = message["id"].get<int>();
     if (id == 0) {
-      if (resent_ < 0 && message.contains("error")) return take_refusal(message["error"]);
+      if (message.contains("error")) return take_refusal(message["error"]);
       greeting_.cancel();
       failures_ = 0;
       ++resent_;
@@ -303,10 +308,15 @@ class Client::Link {
     if (asked.answered) asked.answered(reply);
   }
 
-  // A daemon that serves others may have room later; one that speaks another language never will.
+  // A daemon that serves others may have room later; one that speaks another language never will, nor will one that
+  // refuses what another has done before it stand where that one stood.
   void take_refusal(const Json& error) {
     const bool told = error.is_object() && error.contains("message") && error["message"].is_string();
-    const std::string why = told ? error["message"].get<std::string>() : "the daemon has refused the greeting";
+    const std::string why = told ? error["message"].get<std::string>() : "refused without a reason";
+    if (resent_ >= 0) {
+      return lose("a new daemon cannot be brought to where the last one was: " +
+                  history_.messages()[static_cast<std::size_t>(resent_)].method + ": " + why);
+    }
     const bool full = error.is_object() && error.value("code", Json()) == static_cast<int>(Code::too_many_sessions);
     full ? retry(why) : lose(why);
   }

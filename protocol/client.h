@@ -1,5 +1,8 @@
 // A client of one daemon, which it starts itself or connects to.  It outlives the daemon: one that crashes is started
-// again, or connected to again, and brought back to where it was by sending anew what led there.
+// again, or connected to again, and brought back to where it was by sending anew what led there.  A daemon is lost, and
+// its owner told why, after many attempts in vain, and at once where the next attempt would end as the last: a program
+// that is not there, certificates that one side does not accept, a greeting that is refused, a new daemon that refuses
+// what had led the last one to where it was.
 #pragma once
 
 #include <chrono>

@@ -282,6 +282,7 @@ class SocketListener final : public Listener {
                           if (handshakes_-- == most_handshakes) accept_next();
                           if (error) {
                             refused_("TLS: " + error.message());
+                            if (*secured) std::make_shared<Parting>(std::move((*secured)->next_layer()))->begin();
                           } else {
                             accepted_(std::make_unique<TlsStream>(tls_, std::move(*secured)));
                           }
@@ -351,13 +352,17 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
                               then([this] { succeed(std::make_unique<TlsStream>(tls_, std::move(secured_))); }));
   }
 
-  void succeed(std::unique_ptr<Stream> stream) { std::exchange(done_, {})(std::move(stream), {}); }
+  void succeed(std::unique_ptr<Stream> stream) { std::exchange(done_, {})(std::move(stream), {}, {}); }
   void fail(const boost::system::error_code& error) {
     if (const auto done = std::exchange(done_, {})) {
-      done(nullptr, "cannot connect to " +
-                        (address_.path.empty() ? address_.host + ":" + address_.port : address_.path) + ": " +
-                        error.message());
+      done(nullptr, error,
+           "cannot connect to " + (address_.path.empty() ? address_.host + ":" + address_.port : address_.path) + ": " +
+               error.message() + what_is_wrong_with_the_certificate());
     }
+  }
+  std::string what_is_wrong_with_the_certificate() const {
+    const long found = secured_ ? SSL_get_verify_result(secured_->native_handle()) : X509_V_OK;
+    return found == X509_V_OK ? "" : std::string(": ") + X509_verify_cert_error_string(found);
   }
 
   const Address address_;
@@ -370,6 +375,23 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
 };
 
 }  // namespace
+
+bool is_of_certificates(const boost::system::error_code& error) {
+  if (error.category() != asio::error::get_ssl_category()) return false;
+  switch (ERR_GET_REASON(static_cast<unsigned long>(error.value()))) {
+    case SSL_R_CERTIFICATE_VERIFY_FAILED:  // found here; the others are what the peer says of ours
+    case SSL_R_SSLV3_ALERT_BAD_CERTIFICATE:
+    case SSL_R_SSLV3_ALERT_UNSUPPORTED_CERTIFICATE:
+    case SSL_R_SSLV3_ALERT_CERTIFICATE_REVOKED:
+    case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:
+    case SSL_R_SSLV3_ALERT_CERTIFICATE_UNKNOWN:
+    case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
+    case SSL_R_TLSV13_ALERT_CERTIFICATE_REQUIRED:
+      return true;
+    default:
+      return false;
+  }
+}
 
 std::unique_ptr<Stream> socket_stream(asio::io_context& context, int descriptor) {
   return std::make_unique<SocketStream>(Socket(context, {AF_UNIX, 0}, descriptor));

@@ -48,8 +48,12 @@ class Listener {
 std::unique_ptr<Listener> listen(boost::asio::io_context& context, const Address& address,
                                  const Credentials& credentials);
 
-// A stream that is ready for messages; or null, and why there is none.
-using Connected = std::function<void(std::unique_ptr<Stream> stream, const std::string& why)>;
+// Whether one side does not accept the other's certificate, as it will not the next time either.
+bool is_of_certificates(const boost::system::error_code& error);
+
+// A stream that is ready for messages; or null, with the error and a sentence on it.
+using Connected =
+    std::function<void(std::unique_ptr<Stream> stream, boost::system::error_code error, const std::string& why)>;
 
 // Begins to connect, and with TLS to verify each other; `done` is called in the io_context's thread, however long that
 // takes.  Whoever lets go of what this returns ends the attempt, and is not called.  Throws InputError: certificates

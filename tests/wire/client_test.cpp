@@ -161,12 +161,23 @@ class Mute {
   std::string port_;
 };
 
+void run(const std::string& command) {
+  SPACETIME_ASSERT(std::system(("(" + command + ") > /dev/null 2>&1").c_str()) == 0);
+}
+
 // An authority with what it has signed, for a daemon by this name.
 std::string certificates_for(const std::string& name, const std::string& folder) {
   const auto directory = std::filesystem::path(testing::TempDir()) / (folder + std::to_string(getpid()));
-  const std::string command = SPACETIME_SOURCE_DIR "/protocol/certificates.sh '" + directory.string() + "' " + name;
-  SPACETIME_ASSERT(std::system((command + " > /dev/null 2>&1").c_str()) == 0);
+  run(SPACETIME_SOURCE_DIR "/protocol/certificates.sh '" + directory.string() + "' " + name);
   return directory.string();
+}
+
+// The same authority signs a daemon's certificate that was good until yesterday.
+void expire(const std::string& keys) {
+  run("cd '" + keys +
+      "' && openssl req -new -key daemon-key.pem -subj /CN=daemon -out expired.csr && openssl x509 -req -in "
+      "expired.csr "
+      "-CA authority.pem -CAkey authority-key.pem -days -1 -out daemon.pem");
 }
 
 // A daemon that listens with TLS on a port that it has chosen.
@@ -260,15 +271,46 @@ TEST(Client, TalksWithTheDaemonThatItsAuthorityKnowsAlone) {
   }
   Course course;
   const Client deceived(secured(daemon.port(), keys, others), course.callbacks());
-  EXPECT_TRUE(course.next_is(Client::State::connecting, "certificate verify failed"));
+  EXPECT_TRUE(course.next_is(Client::State::lost, "certificate verify failed"));
+  // Its own certificate is signed by an authority that the daemon does not know.
+  const Client stranger(secured(daemon.port(), others, keys), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::lost, "unknown ca"));
 }
 
-TEST(Client, RefusesADaemonOfAnotherName) {
+TEST(Client, IsLostAtOnceToADaemonOfAnotherName) {
   const std::string keys = certificates_for("elsewhere.example", "named");
   const Listening daemon(keys);
   Course course;
   const Client client(secured(daemon.port(), keys, keys), course.callbacks());
-  EXPECT_TRUE(course.next_is(Client::State::connecting, "certificate verify failed"));
+  EXPECT_TRUE(course.next_is(Client::State::lost, "certificate verify failed"));
+}
+
+TEST(Client, IsLostAtOnceWhereACertificateHasExpiredOrCannotBeRead) {
+  const std::string keys = certificates_for("127.0.0.1", "old");
+  expire(keys);
+  const Listening daemon(keys);
+  Course course;
+  Client client(secured(daemon.port(), keys, keys), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::lost, "certificate has expired"));
+  EXPECT_EQ(answer(client, "expression/query", Json::object()).error["code"], static_cast<int>(Code::internal));
+  const Client without(secured(daemon.port(), "/nowhere", keys), course.callbacks());
+  EXPECT_TRUE(course.next_is(Client::State::lost, "cannot use --certificate '/nowhere/client.pem'"));
+}
+
+TEST(Client, IsLostWhereANewDaemonRefusesWhatTheLastOneHasDone) {
+  // The first daemon of a folder loads anything and ends; the next loads nothing.
+  const auto folder = std::filesystem::path(testing::TempDir()) / ("refuses" + std::to_string(getpid()));
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  const std::string script = "cd '" + folder.string() + R"('; read line; echo '{"jsonrpc":"2.0","id":0,"result":{}}'
+read line; mkdir loaded 2> /dev/null && echo '{"jsonrpc":"2.0","id":1,"result":{}}' && exit
+echo '{"jsonrpc":"2.0","id":0,"error":{"code":-32005,"message":"not any more"}}'; exec cat > /dev/null)";
+  Course course;
+  Client client({{"/bin/sh", "-c", script}, {}, {}}, course.callbacks());
+  result(client, "problem/load", {{"problem", Json::object()}});
+  EXPECT_TRUE(course.next_is(Client::State::connecting, "the daemon has ended the connection"));
+  EXPECT_TRUE(course.next_is(Client::State::lost, "problem/load: not any more"));
+  EXPECT_EQ(client.process(), 0);
 }
 
 TEST(Client, EndsItsDaemon) {
