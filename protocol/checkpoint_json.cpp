@@ -1,5 +1,7 @@
 #include "protocol/checkpoint_json.h"
 
+#include <array>
+
 #include "protocol/action_json.h"
 #include "protocol/measure.h"
 #include "protocol/program_json.h"
@@ -7,71 +9,74 @@
 namespace spacetime {
 namespace {
 
-void write(const Measures& measures, const Checkpoint::Newton& newton) {
-  auto& to = measures.to;
-  to.object(
-      [&] {
-        to.member("mu", newton.mu);
-        measures.member("slacks", newton.slacks);
-        measures.member("multipliers", newton.multipliers);
-        measures.member("lower", newton.lower);
-        measures.member("upper", newton.upper);
-        to.member("outside", newton.outside);
-        to.key("active");
-        to.integers(newton.active);
-        to.key("switches");
-        to.integers(newton.switches);
-        to.key("filter");
-        to.list_of(newton.filter, [&](const Checkpoint::Newton::Entry& entry) {
-          to.list([&] {
-            to.number(entry.violation);
-            to.number(entry.objective);
-          });
-        });
-        measures.member("filter_limit", newton.filter_limit);
-        measures.member("most_violation", newton.most_violation);
-        to.member("shift", newton.shift);
-        to.member("radius", newton.radius);
-        to.member("restore_from", newton.restore_from);
-        to.member("damping", newton.damping);
-        to.member("curved", newton.curved);
-        to.member("least_sum", newton.least_sum);
-        to.member("without_progress", newton.without_progress);
-        to.key("proposed");
-        to.numbers(newton.proposed);
-      },
-      Set::in_lines);
+// Newton's state, member by member in the document's order: plain(name, value), or measure(name, value) of what may be
+// none where the motion has failed.
+template <class Newton, class Plain, class Measure>
+void each_member(Newton& newton, const Plain& plain, const Measure& measure) {
+  plain("mu", newton.mu);
+  measure("slacks", newton.slacks);
+  measure("multipliers", newton.multipliers);
+  measure("lower", newton.lower);
+  measure("upper", newton.upper);
+  plain("outside", newton.outside);
+  plain("active", newton.active);
+  plain("switches", newton.switches);
+  plain("filter", newton.filter);
+  measure("filter_limit", newton.filter_limit);
+  measure("most_violation", newton.most_violation);
+  plain("shift", newton.shift);
+  plain("radius", newton.radius);
+  plain("restore_from", newton.restore_from);
+  plain("damping", newton.damping);
+  plain("curved", newton.curved);
+  plain("least_sum", newton.least_sum);
+  plain("without_progress", newton.without_progress);
+  plain("proposed", newton.proposed);
 }
 
-std::vector<double> measures_from(const Node& node) { return node.each(measure_from); }
+using Filter = std::vector<Checkpoint::Newton::Entry>;
 
-Checkpoint::Newton newton_from(const Node& node) {
-  node.object({"mu", "slacks", "multipliers", "lower", "upper", "outside", "active", "switches", "filter",
-               "filter_limit", "most_violation", "shift", "radius", "restore_from", "damping", "curved", "least_sum",
-               "without_progress", "proposed"});
-  Checkpoint::Newton newton;
-  newton.mu = node["mu"].number();
-  newton.slacks = measures_from(node["slacks"]);
-  newton.multipliers = measures_from(node["multipliers"]);
-  newton.lower = measures_from(node["lower"]);
-  newton.upper = measures_from(node["upper"]);
-  newton.outside = node["outside"].boolean();
-  newton.active = node["active"].integers();
-  newton.switches = node["switches"].integers();
-  newton.filter = node["filter"].each([](const Node& entry) {
+void put(Writer& to, double value) { to.number(value); }
+void put(Writer& to, int value) { to.integer(value); }
+void put(Writer& to, bool value) { to.boolean(value); }
+void put(Writer& to, const std::vector<double>& values) { to.numbers(values); }
+void put(Writer& to, const std::vector<int>& values) { to.integers(values); }
+void put(Writer& to, const Filter& filter) {
+  to.list_of(filter, [&](const auto& entry) { to.numbers(std::array{entry.violation, entry.objective}); });
+}
+
+void take(const Node& from, double& value) { value = from.number(); }
+void take(const Node& from, int& value) { value = from.integer(); }
+void take(const Node& from, bool& value) { value = from.boolean(); }
+void take(const Node& from, std::vector<double>& values) { values = from.numbers(); }
+void take(const Node& from, std::vector<int>& values) { values = from.integers(); }
+void take(const Node& from, Filter& filter) {
+  filter = from.each([](const Node& entry) {
     if (entry.list() != 2) entry.expected("a list of 2 numbers");
     return Checkpoint::Newton::Entry{entry[0].number(), entry[1].number()};
   });
-  newton.filter_limit = measure_from(node["filter_limit"]);
-  newton.most_violation = measure_from(node["most_violation"]);
-  newton.shift = node["shift"].number();
-  newton.radius = node["radius"].number();
-  newton.restore_from = node["restore_from"].number();
-  newton.damping = node["damping"].number();
-  newton.curved = node["curved"].boolean();
-  newton.least_sum = node["least_sum"].number();
-  newton.without_progress = node["without_progress"].integer();
-  newton.proposed = node["proposed"].numbers();
+}
+void take_measure(const Node& from, double& value) { value = measure_from(from); }
+void take_measure(const Node& from, std::vector<double>& values) { values = from.each(measure_from); }
+
+void write(const Measures& measures, const Checkpoint::Newton& newton) {
+  const auto plain = [&](std::string_view name, const auto& value) {
+    measures.to.key(name);
+    put(measures.to, value);
+  };
+  const auto measure = [&](std::string_view name, const auto& value) { measures.member(name, value); };
+  measures.to.object([&] { each_member(newton, plain, measure); }, Set::in_lines);
+}
+
+Checkpoint::Newton newton_from(const Node& node) {
+  Checkpoint::Newton newton;
+  std::vector<std::string_view> names;
+  const auto name_of = [&](std::string_view name, const auto&) { names.push_back(name); };
+  each_member(newton, name_of, name_of);
+  node.object(names, {});
+  const auto plain = [&](std::string_view name, auto& value) { take(node[name], value); };
+  const auto measure = [&](std::string_view name, auto& value) { take_measure(node[name], value); };
+  each_member(newton, plain, measure);
   return newton;
 }
 
@@ -177,7 +182,7 @@ Checkpoint checkpoint_from(const Node& node) {
   checkpoint.functionals = node["functionals"].numbers();
   if (const auto outside = node.find("outside")) {
     outside->object({"objective", "functionals"});
-    checkpoint.outside = {measure_from((*outside)["objective"]), measures_from((*outside)["functionals"])};
+    checkpoint.outside = {measure_from((*outside)["objective"]), (*outside)["functionals"].each(measure_from)};
   }
   checkpoint.step = node["step"].number();
   checkpoint.last_shift = node["shift"].number();

@@ -79,15 +79,14 @@ int Node::choice(std::span<const std::string_view> names) const {
   return static_cast<int>(found - names.begin());
 }
 
-void Node::object(std::initializer_list<std::string_view> required,
-                  std::initializer_list<std::string_view> optional) const {
+void Node::object(std::span<const std::string_view> required, std::span<const std::string_view> optional) const {
   if (!json_->is_object()) expected("an object");
   std::size_t present = 0;
   for (const auto& [name, value] : json_->get_ref<const Json::object_t&>()) {
     if (std::find(required.begin(), required.end(), name) != required.end()) {
       ++present;
     } else if (std::find(optional.begin(), optional.end(), name) == optional.end()) {
-      std::vector<std::string_view> known(required);
+      std::vector<std::string_view> known(required.begin(), required.end());
       known.insert(known.end(), optional.begin(), optional.end());
       Node(value, document_, below(path_, name)).refuse("unknown member; known here: " + list_of(known));
     }

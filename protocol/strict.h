@@ -41,7 +41,10 @@ class Node {
 
   // An object with all of the required members, any of the optional ones and no others.
   void object(std::initializer_list<std::string_view> required,
-              std::initializer_list<std::string_view> optional = {}) const;
+              std::initializer_list<std::string_view> optional = {}) const {
+    object({required.begin(), required.size()}, {optional.begin(), optional.size()});
+  }
+  void object(std::span<const std::string_view> required, std::span<const std::string_view> optional) const;
   Node operator[](std::string_view member) const;  // must be there
   std::optional<Node> find(std::string_view member) const;
 
