@@ -14,7 +14,6 @@ import unittest
 
 from tests.wire import peer
 
-ENDLESS = {"action": "solve", "tolerance": 1e-300}
 
 
 class Sockets(unittest.TestCase):
@@ -130,7 +129,7 @@ class Ends(unittest.TestCase):
         connection = daemon.connect()
         connection.greet()
         connection.ask("problem/load", problem=peer.problem_of("tests/wire/long_throw.scene"))
-        run = connection.start("action/do", action=ENDLESS)
+        run = connection.start("action/do", action=peer.ENDLESS)
         while connection.receive().get("method") != "$/progress":
             pass
         return connection, run
