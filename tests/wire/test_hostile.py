@@ -37,18 +37,22 @@ class Hostile(unittest.TestCase):
     def test_a_reader_that_never_reads(self):
         stream = self.daemon.open_socket()
         stream.setblocking(False)
+        times = [2 * k / 2000 for k in range(2001)]  # answered with as many rows of everything, about a megabyte
         messages = [{"method": "initialize", "params": {"protocol": 1}}, {"method": "problem/load", "params": {"problem": self.problem}}]
-        messages += [{"method": "motion/get"}] * 20000
+        messages += [{"method": "sample", "params": {"times": times}}] * 200
         data = b"".join(json.dumps({"jsonrpc": "2.0", "id": i, **m}).encode() + b"\n" for i, m in enumerate(messages))
-        sent, still = 0, 0
-        while sent < len(data) and still < 50:  # until it takes nothing more
-            try:
-                sent += stream.send(data[sent:sent + 65536])
+        sent, still, held = 0, 0, 0
+        while still < 50:  # until it takes and makes nothing more
+            still += 1
+            with contextlib.suppress(BlockingIOError):
+                while sent < len(data):
+                    sent += stream.send(data[sent:sent + 65536])
+                    still = 0
+            before, held = held, self.daemon.resident_bytes() - self.idle_bytes
+            self.assertLess(held, MEMORY)
+            if held > before + 100_000:
                 still = 0
-            except BlockingIOError:
-                still += 1
-                time.sleep(0.01)
-        self.assertLess(self.daemon.resident_bytes() - self.idle_bytes, MEMORY)
+            time.sleep(0.01)
         self.addCleanup(stream.close)
 
     def test_a_writer_that_stops_inside_a_message(self):
@@ -103,9 +107,9 @@ class Hostile(unittest.TestCase):
             with peer.Daemon("optimizer", transport, OPTIONS) as daemon:
                 for _ in range(10):
                     with daemon.connect("headers") as claimer:
-                        with contextlib.suppress(OSError):
-                            claimer.send_raw(b"Content-Length: 10000000000\r\n\r\n" + b"x" * 1_000_000)
+                        claimer.send_raw(b"Content-Length: 10000000000\r\n\r\n" + b"x" * 100_000)
                         self.assertEqual(claimer.receive()["error"]["code"], -32010)
+                        self.assertEqual(claimer.stream.recv(1), b"")  # an end, and no reset, which may overtake the error
                 self.assertEqual(daemon.end(), 0)
 
     def test_ten_gigabytes_in_one_line(self):
@@ -190,6 +194,38 @@ class Limits(unittest.TestCase):
                         answer = connection.receive_answer()
                     self.assertIn(answer["id"], (number, None))
                     self.assertEqual((answer["error"]["code"], answer["error"]["data"]["limit"]), (code, limit))
+
+    def test_a_problem_that_is_too_fine_is_refused_where_it_is_and_takes_no_memory(self):
+        problem = peer.problem_of("examples/throw.scene")
+        start, end = problem["time"]
+
+        def scoped(scope):
+            return dict(problem, constraints=[dict(problem["constraints"][0], scope=scope), *problem["constraints"][1:]])
+
+        knots = [start] * 4 + [start + (end - start) * k / (1 << 18) for k in range(1, 1 << 18)] + [end] * 4
+        basis = dict(problem["dofs"][0]["basis"], knots=knots)
+        too_fine = [(scoped({"kind": "every", "from": start, "to": end, "step": 1e-8}), "/problem/constraints/0/scope",
+                     "more than 4000000 residuals"),
+                    (scoped({"kind": "count", "from": start, "to": end, "count": 1 << 30}), "/problem/constraints/0/scope/count",
+                     "an integer from 2 to 4000000"),
+                    (dict(problem, dofs=[dict(problem["dofs"][0], basis=basis), *problem["dofs"][1:]]),
+                     "/problem/dofs/0/basis/knots", "more than the limit of 131079")]
+        unknowns = sum(len(dof["basis"]["knots"]) - 4 for dof in problem["dofs"]) + len(problem["parameters"])
+        with peer.Daemon("optimizer", options=["--limit-unknowns", str(unknowns)]) as daemon:
+            connection = daemon.connect()
+            connection.greet()
+            self.assertEqual(connection.ask("problem/load", problem=problem)["unknowns"], unknowns)
+            held = daemon.resident_bytes()
+            for method in ("problem/load", "problem/update"):
+                for finer, path, words in too_fine:
+                    error = connection.answer(connection.start(method, problem=finer))["error"]
+                    self.assertEqual((error["code"], error["data"]), (-32602, {"path": path}))
+                    self.assertIn(words, error["message"])
+                more = dict(problem, parameters=[*problem["parameters"], {"name": "one more", "start": 0}])
+                error = connection.answer(connection.start(method, problem=more))["error"]
+                self.assertEqual((error["code"], error["data"]["limit"]), (-32014, "unknowns"))
+            self.assertLess(daemon.resident_bytes() - held, 64 << 20)
+            self.assertEqual(connection.ask("action/do", action={"action": "solve"})["status"], "converged")
 
     def test_a_refinement_is_held_to_the_limit_before_it_takes_memory(self):
         problem = peer.problem_of("examples/throw.scene")
