@@ -40,6 +40,8 @@ void went(State& state, const Compiled& event, Effects& effects);
 // update_act.cpp: acts and the script.
 void apply(State& state, const Act& event, Effects& effects);
 void apply(State& state, const RunScript& event, Effects& effects);
+void apply(State& state, const Pause& event, Effects& effects);
+void apply(State& state, const Continue& event, Effects& effects);
 void take_from_script(State& state);  // its first line, which is in the text now
 void begin_task(State& state, Effects& effects);
 void compiled_task(State& state, const Compiled& event, Effects& effects);
@@ -73,6 +75,7 @@ void apply(State& state, const DropGhost& event, Effects& effects);
 void apply(State& state, const Play& event, Effects& effects);
 void apply(State& state, const SetPlayback& event, Effects& effects);
 void apply(State& state, const Select& event, Effects& effects);
+void apply(State& state, const Pin& event, Effects& effects);
 void apply(State& state, const SetPose& event, Effects& effects);
 void apply(State& state, const CopyPose& event, Effects& effects);
 void apply(State& state, const PastePose& event, Effects& effects);

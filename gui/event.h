@@ -33,6 +33,8 @@ struct DropSession {  // one that ended without being saved: it is not wanted an
 };
 struct RunScript {};  // what the file still has to do; `solve` where there is nothing
 struct Stop {};       // ends what iterates; what it reached is kept
+struct Pause {};      // likewise, to go on with it
+struct Continue {};   // with what was paused, where it stood
 struct Undo {};
 struct Redo {};
 struct GoTo {  // an entry of the log
@@ -66,6 +68,10 @@ struct SetPlayback {
 };
 struct Select {
   Selection selection;
+};
+struct Pin {  // the pose at a time is shown, pale, whatever the time
+  double time = 0;
+  bool on = true;
 };
 struct SetPose {  // absent: none
   std::optional<Pose> pose;
@@ -175,10 +181,10 @@ struct Restored {  // entries with their texts alone in `scene`
   std::vector<std::string> script;
 };
 
-using Event =
-    std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Undo, Redo, GoTo, Steer, Steered, DropGhost,
-                 Ask, Play, SetPlayback, Select, SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick,
-                 DaemonIs, Compiled, Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused, FileRead,
-                 FileFailed, FileWritten, FileChanged, SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
+using Event = std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Pause, Continue, Undo, Redo, GoTo,
+                           Steer, Steered, DropGhost, Ask, Play, SetPlayback, Select, Pin, SetPose, CopyPose, PastePose,
+                           KeyPose, Draft, SetTheme, Dismiss, Tick, DaemonIs, Compiled, Iterated, Done, Reached,
+                           Sampled, Answered, Acknowledged, Refused, FileRead, FileFailed, FileWritten, FileChanged,
+                           SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
 
 }  // namespace spacetime::gui

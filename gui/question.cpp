@@ -54,17 +54,12 @@ class Asking {
       out_.equations.push_back(equation_of(term));
       out_.equations.back().weight = number(term.weight);
     }
-    for (const Keyframe& keyframe : problem.keyframes)
-      if (const auto time = number(keyframe.time)) out_.keys.push_back(*time);
   }
 
   void after(const Action& action) { std::visit(*this, action); }
 
   void operator()(const SetConstant& set) {
     if (const auto value = number(set.value)) out_.constants[set.constant] = *value;
-  }
-  void operator()(const PullKeys& keys) {
-    if (const auto time = number(keys.time)) out_.keys.push_back(*time);
   }
   void operator()(const SetWeight& set) {
     if (Equation* equation = named(set.name)) equation->weight = set.weight ? number(*set.weight) : std::nullopt;
@@ -172,6 +167,7 @@ Question question_of(const State& state) {
     }
   }
   Question question = asking.take();
+  question.keys = key_marks(state, question.constants);
   for (Equation& equation : question.equations) {
     equation.named = is_given(equation.name);
     const auto statement =

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/problem.h"
+#include "gui/key_marks.h"
 #include "gui/state.h"
 
 namespace spacetime::gui {
@@ -39,7 +40,7 @@ struct Question {
   std::vector<Freedom> dofs;
   std::optional<std::pair<double, double>> window;  // absent: all of the time
   std::map<std::string, double> constants;
-  std::vector<double> keys;  // s: keyframes of the sketch, and poses keyed since
+  std::vector<KeyMark> keys;
 };
 
 // "arm" of "arm.elbow" and of "arm.elbow.force"; names without a dot stand for themselves.

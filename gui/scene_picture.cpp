@@ -205,6 +205,8 @@ Picture picture_of(const State& state, const Question& question, const Residuals
     before.parameters = state.ghost->parameters;
     add_ghost(before, time, 0.35F);
   }
+  for (const double pin : state.pins)
+    if (pin >= problem.start && pin <= problem.end) add_ghost(motion, pin, 0.30F);
   if (shows.ghosts && !state.playback.playing)
     for (int k = 0; k < ghosts_shown; ++k)
       add_ghost(motion, problem.start + (problem.end - problem.start) * k / (ghosts_shown - 1), 0.10F);

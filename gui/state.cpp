@@ -30,4 +30,10 @@ bool can_redo(const State& state) {
   return false;
 }
 
+bool can_pause(const State& state) { return state.running && !state.stopping && !state.work.whole; }
+
+bool can_continue(const State& state) {
+  return state.paused && !state.running && state.present >= 0 && state.log[state.present].number == state.paused->entry;
+}
+
 }  // namespace spacetime::gui

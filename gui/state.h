@@ -69,7 +69,8 @@ struct Steering {
   std::string line;                  // that would be written now: set BasketX = 2.71; set BasketY = 0.5
   std::vector<std::string> actions;  // the same, each as JSON
   std::vector<std::pair<std::string, double>> constants{};  // that it sets
-  bool solves = true;  // false: what it leads to is the edit alone, which solving would take back
+  bool afresh = false;  // each value from the motion before the drag, not from where the one before it led
+  bool solves = true;   // false: what it leads to is the edit alone, which solving would take back
 };
 
 struct ConsoleLine {
@@ -111,6 +112,13 @@ struct Pose {
   std::map<std::string, double> values;
 };
 
+// A run that was paused: the line that goes on with it where the log still ends with what it reached.
+struct Paused {
+  int entry = 0;  // its number
+  std::string line;
+  bool scripting = false;  // the rest of the script follows
+};
+
 struct State {
   // The session.
   std::string file;                    // empty where it was never saved
@@ -131,7 +139,8 @@ struct State {
   // What goes on.
   bool running = false;   // a solve or iterate
   bool stopping = false;  // it was asked to end
-  int waiting = 0;        // acts that are not answered yet
+  std::optional<Paused> paused;
+  int waiting = 0;  // acts that are not answered yet
   std::optional<Steering> steering;
   std::optional<Pose> pose;
   std::optional<Pose> copied;
@@ -145,6 +154,7 @@ struct State {
 
   // How it is looked at.
   Playback playback;
+  std::vector<double> pins;  // s, rising: ghosts of the figure at these times
   Selection selection;
   bool dark = true;
   std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation; "" is a new one
@@ -153,10 +163,16 @@ struct State {
   Work work;
 };
 
+constexpr double same_time = 1e-6;  // s: pins and keys so near are one
+
 // The text is not what the file holds.
 bool unsaved(const State& state);
 bool can_undo(const State& state);
 bool can_redo(const State& state);
+// The run can be paused: not one of many starts, of which nothing is left before its end.
+bool can_pause(const State& state);
+// A run was paused, and it can go on from where the session is.
+bool can_continue(const State& state);
 // The scene text of the present entry, or the one with mistakes.
 std::string text_of(const State& state);
 // What a file would hold: the text, and behind it what the script still has to do.

@@ -173,6 +173,8 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       work.merge = task.merge;
       work.began = state.log[state.present].number;
       work.scripted = task.scripted;
+      work.whole = is_of_many_starts(action);
+      state.paused.reset();
       state.stopping = false;
       state.ghost = state.ghost ? state.ghost : state.curves;
       work.job = {};

@@ -25,6 +25,7 @@ void apply(State& state, const Steer& event, Effects& effects) {
   work.drag->line = event.steering.line;
   work.drag->actions = event.steering.actions;
   work.drag->solves = event.steering.solves;
+  work.drag->afresh = event.steering.afresh;
   work.drag->fresh = true;
   if (work.drag->run && work.drag->moved) {
     effects.push_back(Cancel{work.drag->run});
@@ -49,8 +50,15 @@ void advance_drag(State& state, Effects& effects) {
   }
   drag.begun = true;
   drag.fresh = drag.moved = false;
-  for (const std::string& action : drag.actions) ask_action(state, effects, action, {Kind::steer});
   drag.unanswered = static_cast<int>(drag.actions.size()) + 1;
+  if (drag.afresh) {
+    Request request;
+    request.method = "motion/set";
+    request.params = "\"motion\":" + *state.log[state.present].checkpoint;
+    ask(state, effects, std::move(request), {Kind::steer});
+    ++drag.unanswered;
+  }
+  for (const std::string& action : drag.actions) ask_action(state, effects, action, {Kind::steer});
   if (drag.solves) {
     drag.run =
         ask_action(state, effects, "{\"action\":\"solve\",\"iterations\":" + std::to_string(steering_iterations) + "}",

@@ -42,7 +42,7 @@ void merge(Curves& curves, const Iterated& event) {
 void end_run(State& state) {
   Work& work = state.work;
   work.run = 0;
-  state.stopping = work.unseen = work.discarded = false;
+  state.stopping = work.unseen = work.discarded = work.pausing = work.whole = false;
 }
 
 // One step less on the way to the present entry.
@@ -66,7 +66,7 @@ std::string joined(const std::vector<Logged>& log) {
 // A run is over: what it came to is an entry of the log.
 void finish_run(State& state, const Done& event, Effects& effects) {
   Work& work = state.work;
-  const bool seen = !work.unseen, discarded = work.discarded;
+  const bool seen = !work.unseen, discarded = work.discarded, pausing = work.pausing;
   end_run(state);
   // Checkpoints of entries made during the run show its end, if they are answered after it.
   forget(state, Kind::checkpoint);
@@ -111,6 +111,11 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   // Where the person did something else meanwhile, or stands at what it began from, it stays an entry of its own.
   const bool behind = seen || state.present + 1 < static_cast<int>(state.log.size());
   append(state, std::move(entry), work.merge && behind && last.number == work.began, seen, effects);
+  if (!pausing || !seen || event.status != Status::stopped) return;
+  int iterations = 0;
+  for (const Logged& logged : event.log) iterations += iterations_in(logged.action);
+  const std::string rest = rest_line(work.action, iterations);
+  if (!rest.empty()) state.paused = {state.log.back().number, rest, work.scripted};
 }
 
 }  // namespace
@@ -121,7 +126,22 @@ void stop_run(State& state, Effects& effects) {
   effects.push_back(Cancel{state.work.run});
 }
 
+void apply(State& state, const Pause&, Effects& effects) {
+  if (!can_pause(state)) return;
+  state.work.pausing = true;
+  state.work.scripting = false;
+  stop_run(state, effects);
+}
+
+void apply(State& state, const Continue&, Effects&) {
+  if (!can_continue(state) || state.waiting > 0) return;
+  state.work.tasks.push_back({.line = state.paused->line, .place = Place::optimisation});
+  state.work.scripting = state.paused->scripting && !state.script.empty();
+}
+
 void apply(State& state, const Stop&, Effects& effects) {
+  state.paused.reset();
+  state.work.pausing = false;
   state.work.scripting = false;
   std::erase_if(state.work.tasks, [](const Task& task) { return task.iterates; });
   stop_run(state, effects);
@@ -219,6 +239,7 @@ void apply(State& state, const Acknowledged& event, Effects&) {
   const auto wanted = take(state, event.number);
   if (wanted && wanted->kind == Kind::load) state.work.unloaded.clear();
   if (wanted && wanted->kind == Kind::go) count_step(state);
+  if (wanted && wanted->kind == Kind::steer && state.work.drag) --state.work.drag->unanswered;
 }
 
 void apply(State& state, const Refused& event, Effects& effects) {

@@ -11,7 +11,8 @@ namespace {
 
 using Place = Notice::Place;
 
-constexpr double note_seconds = 6;  // a quiet notice stays so long
+constexpr double note_seconds = 6;     // a quiet notice stays so long
+constexpr std::size_t most_pins = 40;  // more ghosts tell nothing, and cost as many figures a frame
 
 // The other side's name, for a pose that is to be mirrored: left for right, with either case.
 std::string mirrored(std::string name) {
@@ -33,6 +34,13 @@ void apply(State& state, const Play& event, Effects&) { state.playback.playing =
 void apply(State& state, const SetPlayback& event, Effects&) { state.playback = event.playback; }
 
 void apply(State& state, const Select& event, Effects&) { state.selection = event.selection; }
+
+void apply(State& state, const Pin& event, Effects&) {
+  const auto there = [&](double time) { return std::abs(time - event.time) < same_time; };
+  std::erase_if(state.pins, there);
+  if (!event.on || state.pins.size() >= most_pins) return;
+  state.pins.insert(std::ranges::upper_bound(state.pins, event.time), event.time);
+}
 
 void apply(State& state, const SetPose& event, Effects&) { state.pose = event.pose; }
 
@@ -63,7 +71,7 @@ void apply(State& state, const PastePose& event, Effects&) {
 void apply(State& state, const KeyPose&, Effects& effects) {
   if (!state.pose || state.pose->values.empty()) return;
   std::vector<std::pair<std::string, double>> keys(state.pose->values.begin(), state.pose->values.end());
-  const std::string line = key_line(state.playback.time, keys);
+  const std::string line = key_words(state.playback.time, keys).line;
   state.pose.reset();
   apply(state, Act{line, Place::timeline, ""}, effects);
 }

@@ -91,12 +91,14 @@ Words damp_words(double limit, const DofNames& dofs) {
   return {"damp " + number_text(limit) + of(dofs), json_of(Damp{quantity(limit), dofs})};
 }
 
-std::string key_line(double time, const std::vector<std::pair<std::string, double>>& keys) {
+Words key_words(double time, const std::vector<std::pair<std::string, double>>& keys) {
   std::string line = "key " + number_text(time);
+  PullKeys pull{quantity(time), {}};
   for (const auto& [dof, value] : keys) {
-    line += (&dof == &keys.front().first ? ": " : ", ") + dof + " = " + number_text(value);
+    line += (pull.keys.empty() ? ": " : ", ") + dof + " = " + number_text(value);
+    pull.keys.push_back({dof, quantity(value)});
   }
-  return line;
+  return {line, json_of(pull)};
 }
 
 Words control_words(const std::string& dof, int index, double value) {
@@ -129,6 +131,32 @@ std::string iterating_line(const std::string& action_json) {
   if (const auto* solve = std::get_if<Solve>(&action.action)) return solve_words(*solve).line;
   if (const auto* iterate = std::get_if<Iterate>(&action.action)) return iterate_words(iterate->iterations).line;
   return {};
+}
+
+std::string rest_line(const std::string& action_json, int iterations) {
+  const PlacedAction action = placed(action_json);
+  if (const auto* iterate = std::get_if<Iterate>(&action.action)) {
+    const int rest = iterate->iterations - iterations;
+    return rest > 0 ? iterate_words(rest).line : "";
+  }
+  const auto* solve = std::get_if<Solve>(&action.action);
+  if (!solve) return {};
+  Solve rest = *solve;
+  if (rest.iterations) *rest.iterations -= iterations;
+  return rest.iterations && *rest.iterations <= 0 ? "" : solve_words(rest).line;
+}
+
+int iterations_in(const std::string& action_json) {
+  const PlacedAction action = placed(action_json);
+  if (const auto* iterate = std::get_if<Iterate>(&action.action)) return iterate->iterations;
+  const auto* solve = std::get_if<Solve>(&action.action);
+  return solve ? solve->iterations.value_or(0) : 0;
+}
+
+bool is_of_many_starts(const std::string& action_json) {
+  const PlacedAction action = placed(action_json);
+  const auto* solve = std::get_if<Solve>(&action.action);
+  return solve && solve->starts > 1;
 }
 
 namespace {

@@ -34,6 +34,7 @@ Words shake_words(double amplitude, int seed, const DofNames& dofs = {});
 Words filter_words(double strength, const DofNames& dofs = {});
 Words damp_words(double limit, const DofNames& dofs = {});
 Words control_words(const std::string& dof, int index, double value);
+Words key_words(double time, const std::vector<std::pair<std::string, double>>& keys);
 Words reset_words();
 Words solve_words(const Solve& solve = {});
 Words iterate_words(int iterations);
@@ -41,12 +42,17 @@ Words iterate_words(int iterations);
 // What only the compiler can turn into an action: a statement's new text behind `NAME:`, a scope as it is written.
 std::string replace_line(const std::string& name, const std::string& statement);
 std::string scope_line(const std::string& name, const std::string& scope);
-std::string key_line(double time, const std::vector<std::pair<std::string, double>>& keys);
 
 // JSON of an action, without its place.
 std::string json_of(const Action& action);
 // The line of an action that iterates, or nothing for an edit.  Throws InputError for what is no action.
 std::string iterating_line(const std::string& action_json);
+// What an action that iterates still has to do after so many iterations; nothing where its number is reached.
+std::string rest_line(const std::string& action_json, int iterations);
+// How many iterations a run's log tells of: of actions that name their number.
+int iterations_in(const std::string& action_json);
+// Of many starts: what it has reached is worth nothing before its end.
+bool is_of_many_starts(const std::string& action_json);
 // Whether two JSON texts ask for the same; places do not count.
 bool same_action(const std::string& a, const std::string& b);
 

@@ -89,6 +89,8 @@ struct Work {
   bool merge = false;      // its entry becomes part of the one it began from
   int began = 0;           // number of that entry
   bool scripted = false;   // taken from State::script
+  bool whole = false;      // of many starts: stopped before its end, it leaves nothing
+  bool pausing = false;    // it was stopped to go on with it
   bool unseen = false;     // the person has gone elsewhere meanwhile
   bool discarded = false;  // nothing is to be left of it
 
@@ -104,6 +106,7 @@ struct Work {
   struct Drag {
     std::string line;
     std::vector<std::string> actions;
+    bool afresh = false;
     bool solves = true;  // each value is followed by a few iterations, the last by a solve
     bool fresh = true;   // not sent yet
     bool moved = false;  // the round that is under way has iterated

@@ -131,8 +131,8 @@ void draw_welcome(Ui& ui) {
 }
 
 void draw_shortcuts(Ui& ui) {
-  static constexpr std::array<std::array<const char*, 2>, 20> all{{
-      {"F5", "Run, or stop what runs"},
+  static constexpr std::array<std::array<const char*, 2>, 22> all{{
+      {"F5", "Run; pause what runs, and go on with it"},
       {"F10", "One iteration"},
       {"Esc", "Stop; close what is open"},
       {"Space", "Play or pause"},
@@ -147,9 +147,11 @@ void draw_shortcuts(Ui& ui) {
       {"Ctrl+E", "Examples"},
       {"1, 2, 3, 4", "View from the front, the side, above, freely"},
       {"F", "Frame the figure"},
-      {"G, T", "Ghosts, trails"},
+      {"G", "Pin a ghost of the figure at the time shown"},
+      {"Shift+G, T", "Ghosts along the motion, trails"},
       {"Ctrl+Q", "Quit"},
       {"F1", "This list"},
+      {"Left button on a key", "Drag it to another time; right button takes it away"},
       {"Left button in the scene", "On the figure poses it, elsewhere turns the view"},
       {"Right or middle button, wheel", "Move the view, come closer"},
   }};

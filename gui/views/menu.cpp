@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "gui/views/dialogs.h"
@@ -31,6 +32,11 @@ void run(Ui& ui) {
 }
 
 bool can_run(const Ui& ui) { return ui.state.scene && ui.state.scene->problem && !ui.state.running; }
+
+// Whether a ghost stands at the time shown.
+bool is_pinned(const State& s) {
+  return std::ranges::any_of(s.pins, [&](double pin) { return std::abs(pin - s.playback.time) < same_time; });
+}
 
 bool begin_menu(Ui& ui, const char* name) {
   if (ImGui::BeginMenu(name)) return true;
@@ -102,7 +108,10 @@ void draw_view_menu(Ui& ui) {
   if (ImGui::MenuItem("Frame the figure", "F")) m.framed = false;
   ImGui::MenuItem("Orthographic", nullptr, &m.camera.orthographic);
   ImGui::Separator();
-  ImGui::MenuItem("Ghosts", "G", &m.ghosts);
+  if (ImGui::MenuItem("Pin a ghost here", "G", is_pinned(ui.state), ui.state.curves != nullptr))
+    ui.emit(Pin{ui.state.playback.time, !is_pinned(ui.state)});
+  ui.here("menu pin");
+  ImGui::MenuItem("Ghosts along the motion", "Shift+G", &m.ghosts);
   ImGui::MenuItem("Trails", "T", &m.trails);
   ImGui::MenuItem("Forces", nullptr, &m.forces);
   ImGui::MenuItem("Marks of constraints", nullptr, &m.marks);
@@ -149,7 +158,7 @@ void draw_toolbar(Ui& ui) {
       colour.w = 0.75F;
       ImGui::PushStyleColor(ImGuiCol_Button, colour);
     }
-    const bool pressed = ImGui::Button(label, {ui.scaled(64), 0});
+    const bool pressed = ImGui::Button(label, {ui.scaled(68), 0});
     if (strong) ImGui::PopStyleColor();
     if (!possible) ImGui::EndDisabled();
     ui.here(name);
@@ -157,13 +166,24 @@ void draw_toolbar(Ui& ui) {
     ImGui::SameLine(0, ui.scaled(6));
     return pressed && possible;
   };
+  const bool whole = s.running && !s.stopping && !can_pause(s);  // of many starts
   if (s.running) {
-    if (button("Stop", "stop", !s.stopping, "Stop; what is reached is kept (F5, Esc)", true)) ui.emit(Stop{});
+    const char* help = whole ? "Of many starts nothing is left before the end: it cannot be paused, only stopped."
+                             : "Keep what is reached, to go on with it (F5).";
+    if (button("Pause", "pause", can_pause(s), help, true)) ui.emit(Pause{});
+  } else if (can_continue(s)) {
+    const std::string help = "Go on where it was paused, as it was asked for (F5): " + s.paused->line;
+    if (button("Continue", "continue", can_run(ui), help.c_str(), true)) ui.emit(Continue{});
   } else {
     const std::string help = s.script.empty() ? "Find the motion (F5): " + solve_line(ui.memory)
                                               : "Do what the file asks for (F5): " + s.script.front();
     if (button("Run", "run", can_run(ui), help.c_str(), can_run(ui))) run(ui);
   }
+  const char* stopping =
+      whole ? "End it (Esc). Of many starts nothing is left before the end."
+            : "End it; what is reached is kept (Esc). It leaves the same line as a pause, but Run then begins "
+              "with what the panel says.";
+  if (button("Stop", "stop", (s.running && !s.stopping) || can_continue(s), stopping)) ui.emit(Stop{});
   if (button("Step", "step", can_run(ui), "One iteration (F10)"))
     ui.act(iterate_words(1).line, Notice::Place::optimisation);
   ImGui::SameLine(0, ui.scaled(18));
@@ -239,7 +259,9 @@ void take_keys(Ui& ui) {
   if (pressed(GLFW_KEY_F1)) ui.memory.shortcuts = true;
   if (pressed(GLFW_KEY_F5)) {
     if (s.running)
-      ui.emit(Stop{});
+      ui.emit(Pause{});
+    else if (can_continue(s))
+      ui.emit(Continue{});
     else if (can_run(ui))
       run(ui);
   }
@@ -269,7 +291,12 @@ void take_keys(Ui& ui) {
   }
   if (pressed(GLFW_KEY_SPACE)) ui.emit(Play{!s.playback.playing});
   if (pressed(GLFW_KEY_K) && s.pose) ui.emit(KeyPose{});
-  if (pressed(GLFW_KEY_G)) ui.memory.scene.ghosts = !ui.memory.scene.ghosts;
+  if (pressed(GLFW_KEY_G)) {
+    if (io.KeyShift)
+      ui.memory.scene.ghosts = !ui.memory.scene.ghosts;
+    else if (s.curves)
+      ui.emit(Pin{s.playback.time, !is_pinned(s)});
+  }
   if (pressed(GLFW_KEY_T)) ui.memory.scene.trails = !ui.memory.scene.trails;
   if (pressed(GLFW_KEY_F)) ui.memory.scene.framed = false;
   if (pressed(GLFW_KEY_1)) turn(ui, View::front);

@@ -9,22 +9,12 @@
 #include "common/bspline.h"
 #include "gui/views/curves.h"
 #include "gui/views/freedoms.h"
-#include "gui/views/plot_frame.h"
+#include "gui/views/ruler.h"
 #include "gui/views/time_axis.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
-
-// Dragged times snap to hundredths of a second, unless Alt is held.
-double snapped(double t) { return ImGui::GetIO().KeyAlt ? t : std::round(t * 100) / 100; }
-
-void move_to(Ui& ui, double time) {
-  Playback playback = ui.state.playback;
-  playback.time = time;
-  playback.playing = false;
-  ui.emit(SetPlayback{playback});
-}
 
 enum class Icon { first, back, play, pause, forward, last };
 
@@ -97,34 +87,6 @@ void label_of(const Ui& ui, ImDrawList& list, const TimeAxis& axis, float y, con
   list.PushClipRect({axis.left - ui.scaled(164), y - size.y}, {axis.left - 6, y + size.y}, true);
   list.AddText({left, y - size.y / 2}, packed(colour), text.c_str());
   list.PopClipRect();
-}
-
-void draw_ruler(Ui& ui, const TimeAxis& axis) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float height = ui.scaled(24);
-  ImGui::SetCursorScreenPos({axis.left - 6, at.y});
-  ImGui::InvisibleButton("ruler", {axis.right - axis.left + 12, height});
-  ui.here("ruler");
-  ui.help("Click or drag to move through time. The wheel zooms, dragging with the right button moves.");
-  if (ImGui::IsItemActive()) move_to(ui, axis.time(ImGui::GetIO().MousePos.x));
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const double step = round_step(axis.to - axis.from, (axis.right - axis.left) / ui.scaled(70));
-  for (auto k = static_cast<long>(std::ceil(axis.from / step * 5 - 1e-6));
-       axis.shows(static_cast<double>(k) * step / 5); ++k) {
-    const double t = static_cast<double>(k) * step / 5;
-    const bool named = k % 5 == 0;
-    const float x = axis.x(t);
-    list.AddLine({x, at.y + (named ? 12.0F : 17.0F) * ui.memory.scale}, {x, at.y + height}, packed(ui.colours().line));
-    if (!named) continue;
-    const std::string text = fmt::format("{:g}", std::round(t * 1e6) / 1e6);
-    list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, at.y - 3}, packed(ui.colours().faint), text.c_str());
-  }
-  for (const double key : ui.question().keys) {
-    if (!axis.shows(key)) continue;
-    const float x = axis.x(key), y = at.y + height - 5, r = ui.scaled(4);
-    list.AddQuadFilled({x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}, packed(ui.colours().curves[1]));
-  }
-  ImGui::SetCursorScreenPos({at.x, at.y + height});
 }
 
 // A bar from `from` to `to` whose ends can be dragged; the new ends when they are let go.

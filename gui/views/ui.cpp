@@ -16,7 +16,9 @@ constexpr float help_delay = 0.6F;  // s
 void refresh(Ui& ui) {
   Memory& m = ui.memory;
   const State& s = ui.state;
-  if (m.asked != s.scene || m.asked_present != s.present || m.asked_acts != s.log.size()) {
+  if (m.asked != s.scene || m.asked_present != s.present || m.asked_acts != s.log.size() ||
+      m.asked_motion != s.motion) {
+    m.asked_motion = s.motion;
     m.asked = s.scene;
     m.asked_present = s.present;
     m.asked_acts = s.log.size();

@@ -55,6 +55,12 @@ struct SpanMemory {
   double from = 0, to = 0;    // s, of it shown by the timeline and the curves
 };
 
+struct KeyMemory {
+  int dragged = -1;  // index into Question::keys
+  double time = 0;   // s, where it is held
+  bool moved = false;
+};
+
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
@@ -74,6 +80,7 @@ struct Memory {
   std::shared_ptr<const Scene> asked;  // what `question` was worked out from
   int asked_present = -1;
   std::size_t asked_acts = 0;
+  std::shared_ptr<const Motion> asked_motion;
   Question question;
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
@@ -82,6 +89,7 @@ struct Memory {
   SceneMemory scene;
   CurvesMemory curves;
   BarMemory bar;
+  KeyMemory key;
   SpanMemory span;
   FilesMemory files;
   std::set<std::string> told;                   // the notices that were shown in the last frame

@@ -34,7 +34,7 @@ void work(Hub& hub) {
   post_and_wait(hub, RunScript{});
   act(hub, "set BasketX = 2.3");
   act(hub, "solve");
-  act(hub, key_line(0.5, {{"arm.elbow", 0.25}}));
+  act(hub, key_words(0.5, {{"arm.elbow", 0.25}}).line);
   post_and_wait(hub, Undo{});
 }
 

@@ -45,7 +45,7 @@ TEST(HubSession, OpensSolvesUndoesRedoesSavesAndOpensAgain) {
   const auto solved = curves_text(*state.motion);
   expect_same_as_batch(hub);
 
-  act(hub, key_line(0.5, {{"arm.shoulder", -1.25}}));
+  act(hub, key_words(0.5, {{"arm.shoulder", -1.25}}).line);
   act(hub, set_words("BasketX", 2.2).line);
   act(hub, "solve");
   ASSERT_EQ(state.log.size(), 5U) << told(state);

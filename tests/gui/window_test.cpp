@@ -122,10 +122,10 @@ TEST(Window, DrawsAndObeysWhileDaemonsAreSilent) {
     for (; frames < 300; ++handled) {
       d.click(tabs[handled % 6]);  // five frames
       d.key(GLFW_KEY_F5);
-      d.key(GLFW_KEY_G);
+      d.key(GLFW_KEY_T);
       frames += 11;
     }
-    EXPECT_EQ(d.screen().memory().scene.ghosts, handled % 2 == 0);  // every G was taken
+    EXPECT_EQ(d.screen().memory().scene.trails, handled % 2 == 0);  // every T was taken
     EXPECT_LT(d.state().waiting, 100);
     if (symbolic_too) continue;
     EXPECT_TRUE(d.state().scene && d.state().scene->problem);
