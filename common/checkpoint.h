@@ -93,6 +93,7 @@ struct Checkpoint {
   };
 
   std::string problem;               // its fingerprint (protocol/fingerprint)
+  std::string fingerprint;           // of the motion's numbers and these, as a document told it; else empty
   std::optional<Progress> progress;  // where the problem's own actions are performed in turn
   int declared = 0;                  // statements that take effect before this action have done so
   std::vector<Action> edits;         // of the problem, since it was loaded

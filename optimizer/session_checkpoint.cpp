@@ -1,6 +1,8 @@
 // A session's checkpoint: how it is taken, and how a session goes on from one.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/diagnostic.h"
 #include "optimizer/resume.h"
 #include "optimizer/session.h"
@@ -77,7 +79,13 @@ void Session::resume(const Motion& motion) {
   require_size("/checkpoint/functionals", at.functionals.size(), whole.functionals());
   x.insert(x.end(), at.functionals.begin(), at.functionals.end());
   require_size("/parameters", motion.parameters.size(), edited.problem.parameters.size());
-  for (const auto& [name, value] : motion.parameters) x.push_back(value);
+  for (const Parameter& parameter : edited.problem.parameters) {
+    const auto own = std::ranges::find(motion.parameters, parameter.name, &std::pair<std::string, double>::first);
+    if (own == motion.parameters.end()) {
+      throw CheckpointError("/parameters", fmt::format("'{}' is missing, which the problem has", parameter.name));
+    }
+    x.push_back(own->second);
+  }
 
   auto own = x;
   if (auto& part = numerics->part) {

@@ -11,6 +11,11 @@
 
 namespace spacetime {
 
+// Why numbers that came have another hash than they had.
+inline constexpr std::string_view probably_rounded =
+    "numbers have probably been rounded on the way; pass the document on as the text that it was, or write numbers so "
+    "that they read back as the same doubles (17 digits)";
+
 // The first thing that is wrong, and its JSON pointer in the document that the value makes.
 struct Fault {
   std::string path;

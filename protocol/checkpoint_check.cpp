@@ -3,6 +3,7 @@
 #include <string>
 
 #include "protocol/check.h"
+#include "protocol/checkpoint_json.h"
 #include "protocol/declared.h"
 #include "protocol/path.h"
 #include "protocol/problem_json.h"
@@ -114,18 +115,21 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
     all.none_negative(checkpoint.sqp92->weights, path + "/sqp92/weights");
   }
   if (checkpoint.bfgs) all.numbers(checkpoint.bfgs->inverse, path + "/bfgs/inverse");
+  if (checkpoint.fingerprint.empty()) return;
+  if (const auto own = fingerprint(motion); own != checkpoint.fingerprint) {
+    fail(path + "/fingerprint", "is not that of the motion's numbers, which is " + own + ": " +
+                                    std::string(probably_rounded) +
+                                    ", or leave out the member 'checkpoint' to go on from the motion alone");
+  }
 }
 
-void check_names(const auto& found, const auto& expected, const std::string& path, auto name_of_found) {
-  if (found.size() != expected.size()) {
-    fail(path, "there are " + std::to_string(found.size()) + ", but the problem has " +
-                   std::to_string(expected.size()) + "; use the motion without its checkpoint");
-  }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (name_of_found(found[i]) == expected[i].name) continue;
-    fail(path, "the problem has '" + expected[i].name + "' where the motion has '" + name_of_found(found[i]) +
-                   "'; use the motion without its checkpoint");
-  }
+[[noreturn]] void fail_as_another(const std::string& path, const std::string& difference) {
+  fail(path, difference + "; use the motion without its checkpoint");
+}
+
+void check_count(std::size_t found, std::size_t expected, const std::string& path) {
+  if (found == expected) return;
+  fail_as_another(path, "there are " + std::to_string(found) + ", but the problem has " + std::to_string(expected));
 }
 
 void check(const Motion& motion, const Problem& problem) {
@@ -136,8 +140,18 @@ void check(const Motion& motion, const Problem& problem) {
          "motion without its checkpoint");
   }
   if (motion.start != problem.start || motion.end != problem.end) fail("/time", "is not the problem's");
-  check_names(motion.dofs, problem.dofs, "/dofs", [](const Trajectory& dof) { return dof.name; });
-  check_names(motion.parameters, problem.parameters, "/parameters", [](const auto& named) { return named.first; });
+  check_count(motion.dofs.size(), problem.dofs.size(), "/dofs");
+  for (std::size_t i = 0; i < problem.dofs.size(); ++i) {
+    const auto &own = problem.dofs[i].name, &found = motion.dofs[i].name;
+    if (found != own) fail_as_another("/dofs", "the problem has '" + own + "' where the motion has '" + found + "'");
+  }
+  check_count(motion.parameters.size(), problem.parameters.size(), "/parameters");
+  for (const Parameter& parameter : problem.parameters) {  // members of an object, in any order
+    const auto is_it = [&](const auto& named) { return named.first == parameter.name; };
+    if (std::ranges::none_of(motion.parameters, is_it)) {
+      fail_as_another("/parameters", "the problem has '" + parameter.name + "', which the motion has not");
+    }
+  }
   const auto actions = static_cast<int>(problem.actions.size());
   if (checkpoint.progress)
     Check::count(checkpoint.progress->action, std::max(1, actions), "/checkpoint/progress/action");

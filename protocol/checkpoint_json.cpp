@@ -1,7 +1,9 @@
 #include "protocol/checkpoint_json.h"
 
+#include <algorithm>
 #include <array>
 
+#include "common/fnv.h"
 #include "protocol/action_json.h"
 #include "protocol/measure.h"
 #include "protocol/program_json.h"
@@ -89,11 +91,14 @@ Window window_from(const Node& node) {
 
 }  // namespace
 
-void write(Writer& to, const Checkpoint& checkpoint, bool failed) {
+namespace {
+
+void write(Writer& to, const Checkpoint& checkpoint, bool failed, const std::string& stamp) {
   const Measures measures{to, failed};
   to.object(
       [&] {
         to.member("problem", checkpoint.problem);
+        if (!stamp.empty()) to.member("fingerprint", stamp);
         if (const auto& progress = checkpoint.progress) {
           to.key("progress");
           to.object([&] {
@@ -159,12 +164,50 @@ void write(Writer& to, const Checkpoint& checkpoint, bool failed) {
       Set::in_lines);
 }
 
-Checkpoint checkpoint_from(const Node& node) {
+}  // namespace
+
+void write_checkpoint(Writer& to, const Motion& motion) {
+  write(to, *motion.checkpoint, motion.status == Status::failed, fingerprint(motion));
+}
+
+std::string fingerprint(const Motion& motion) {
+  const auto sorted = [](Named named) {  // members of an object may stand in any order
+    std::ranges::sort(named);
+    return named;
+  };
+  Checkpoint checkpoint = *motion.checkpoint;
+  checkpoint.damping = sorted(std::move(checkpoint.damping));
+  if (auto& start = checkpoint.start) start->parameters = sorted(std::move(start->parameters));
+  Writer numbers(false);
+  numbers.object([&] {
+    numbers.member("iterations", motion.iterations);
+    numbers.key("dofs");
+    numbers.list_of(motion.dofs, [&](const Trajectory& dof) { write(numbers, dof); });
+    member(numbers, "parameters", sorted(motion.parameters));
+    numbers.key("checkpoint");
+    write(numbers, checkpoint, true, {});
+  });
+  Fnv1a sum;
+  sum.text(numbers.take());
+  return sum.digits();
+}
+
+Checkpoint checkpoint_from(const Node& node, bool stamped) {
+  if (stamped) {
+    node["fingerprint"];  // is missing
+  } else if (const auto found = node.find("fingerprint")) {
+    found->refuse("the format's version 1 has no fingerprint");
+  }
   node.object({"problem", "declared", "edits", "damping", "shakes", "judged", "functionals", "step", "shift", "pivoted",
                "newton"},
-              {"progress", "window", "start", "outside", "sqp92", "bfgs"});
+              {"fingerprint", "progress", "window", "start", "outside", "sqp92", "bfgs"});
   Checkpoint checkpoint;
   checkpoint.problem = node["problem"].string();
+  if (stamped) {
+    checkpoint.fingerprint = node["fingerprint"].string();
+    const bool digits = checkpoint.fingerprint.find_first_not_of("0123456789abcdef") == std::string::npos;
+    if (checkpoint.fingerprint.size() != 32 || !digits) node["fingerprint"].expected("32 hexadecimal digits");
+  }
   if (const auto progress = node.find("progress")) {
     progress->object({"action", "iterations"});
     checkpoint.progress = {(*progress)["action"].integer(), (*progress)["iterations"].integer()};

@@ -97,7 +97,9 @@ void Declared::programs() {
     }
     if (auto fault = validate(program)) fail(path + '/' + document_path(fault->path), fault->message);
     needs_.emplace(key, needs_of(program, path));
-    if (const auto own = hash(program); own != key) fail(path, "is not the program's hash, which is " + own);
+    if (const auto own = hash(program); own != key) {
+      fail(path, "is not the program's hash, which is " + own + ": " + std::string(probably_rounded));
+    }
   }
 }
 

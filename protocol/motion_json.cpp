@@ -202,7 +202,7 @@ void write(Writer& to, const Motion& motion) {
         }
         if (motion.checkpoint) {
           to.key("checkpoint");
-          write(to, *motion.checkpoint, measures.failed);
+          write_checkpoint(to, motion);
         }
       },
       Set::in_lines);
@@ -215,8 +215,8 @@ std::string write(const Motion& motion) {
 }
 
 Motion motion_from(const Node& node) {
-  static constexpr std::array formats{motion_format};
-  node["format"].choice(formats);
+  static constexpr std::array formats{first_motion_format, motion_format};
+  const bool stamped = formats[static_cast<std::size_t>(node["format"].choice(formats))] == motion_format;
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
               {"samples", "record", "minima", "bodies", "programs", "checkpoint"});
@@ -251,7 +251,7 @@ Motion motion_from(const Node& node) {
   } else if (const auto programs = node.find("programs")) {
     node["bodies"];  // is missing
   }
-  if (const auto checkpoint = node.find("checkpoint")) motion.checkpoint = checkpoint_from(*checkpoint);
+  if (const auto checkpoint = node.find("checkpoint")) motion.checkpoint = checkpoint_from(*checkpoint, stamped);
   return motion;
 }
 

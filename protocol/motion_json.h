@@ -10,7 +10,9 @@
 
 namespace spacetime {
 
-inline constexpr std::string_view motion_format = "spacetime-motion/1";
+// What is written.  Version 1 is read, too: its checkpoints have no fingerprint, so that nobody can tell whether their
+// numbers have been rounded.
+inline constexpr std::string_view motion_format = "spacetime-motion/2", first_motion_format = "spacetime-motion/1";
 inline constexpr std::string_view motion_document = "motion document";  // in sentences
 
 // The document as text: one degree of freedom a line.  Measures of a failed motion that are not finite become null.

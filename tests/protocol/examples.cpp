@@ -3,6 +3,8 @@
 #include <numeric>
 #include <utility>
 
+#include "protocol/checkpoint_json.h"
+
 namespace spacetime::examples {
 namespace {
 
@@ -296,6 +298,7 @@ Motion rich_motion() {
                        {-3, 4}};
   checkpoint.sqp92 = {{1, -2}, {1, 2}};
   motion.checkpoint = checkpoint;
+  motion.checkpoint->fingerprint = fingerprint(motion);
   return motion;
 }
 

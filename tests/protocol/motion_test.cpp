@@ -123,7 +123,7 @@ TEST(MotionDocument, HasTheAgreedMembers) {
   motion.checkpoint.reset();
   motion.dofs.resize(1);
   EXPECT_EQ(write(motion), R"({
- "format": "spacetime-motion/1",
+ "format": "spacetime-motion/2",
  "time": [0, 2],
  "status": "converged",
  "message": "Converged: every constraint is kept and nothing near is better.",

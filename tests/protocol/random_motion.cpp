@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "protocol/checkpoint_json.h"
 #include "tests/protocol/random_parts.h"
 
 namespace spacetime::examples {
@@ -87,7 +88,10 @@ Motion random_motion(std::uint32_t seed) {
                              std::vector<int>(12, 3)});
     motion.programs = std::move(problem.programs);
   }
-  if (coin(random)) motion.checkpoint = random_checkpoint(random, motion);
+  if (coin(random)) {
+    motion.checkpoint = random_checkpoint(random, motion);
+    motion.checkpoint->fingerprint = fingerprint(motion);
+  }
   if (!coin(random)) return motion;
   Samples samples;
   for (int i = below(random, 4); i > 0; --i) samples.times.push_back(value());

@@ -1,7 +1,10 @@
 // Every rule broken once: the path is exact and the sentence says what was expected and what was found.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "protocol/check.h"
+#include "protocol/checkpoint_json.h"
 #include "protocol/limits.h"
 #include "protocol/motion_json.h"
 #include "protocol/problem_json.h"
@@ -210,7 +213,7 @@ TEST(ProblemRefuses, WhatMeansNothing) {
 
 TEST(MotionRefuses, WrongFormsAndWhatMeansNothing) {
   expect_motion_refusals({
-      {"/format", R"("spacetime-problem/1")", nullptr, R"(expected "spacetime-motion/1")"},
+      {"/format", R"("spacetime-problem/1")", nullptr, R"(expected "spacetime-motion/1" or "spacetime-motion/2")"},
       {"/surplus", "1", nullptr, "unknown member"},
       {"/status", R"("done")", nullptr, R"(expected "converged", "stopped", "infeasible" or "failed")"},
       {"/status", none, "", R"(the member "status" is missing)"},
@@ -314,6 +317,33 @@ TEST(MotionRefuses, WrongCheckpoints) {
   });
 }
 
+TEST(MotionRefuses, CheckpointsWhoseNumbersWereRounded) {
+  expect_motion_refusals({
+      {"/checkpoint/fingerprint", none, "/checkpoint", R"(the member "fingerprint" is missing)"},
+      {"/checkpoint/fingerprint", R"("0123")", nullptr, "expected 32 hexadecimal digits"},
+      {"/checkpoint/fingerprint", R"("0123456789abcdef0123456789abcdef")", nullptr, "have probably been rounded"},
+      {"/dofs/0/coefficients/0", "1e-300", "/checkpoint/fingerprint", "leave out the member 'checkpoint'"},
+      {"/parameters/speed", "2.0000000000000004", "/checkpoint/fingerprint", "have probably been rounded"},
+      {"/iterations", "60", "/checkpoint/fingerprint", "have probably been rounded"},
+      {"/checkpoint/newton/filter/0/0", "1.0000000000000002", "/checkpoint/fingerprint", "have probably been rounded"},
+      {"/checkpoint/start/dofs/0/coefficients/0", "1e-300", "/checkpoint/fingerprint", "have probably been rounded"},
+      {"/format", R"("spacetime-motion/1")", "/checkpoint/fingerprint", "version 1 has no fingerprint"},
+  });
+}
+
+// A document of the first version cannot tell whether its numbers are those that were written: it is taken at its word.
+TEST(Motions, OfTheFirstVersionAreRead) {
+  auto document = nlohmann::json::parse(write(examples::rich_motion()));
+  document["format"] = "spacetime-motion/1";
+  document["checkpoint"].erase("fingerprint");
+  document["checkpoint"]["step"] = 0.125;
+  const Motion read = read_motion(document.dump());
+  EXPECT_EQ(read.checkpoint->step, 0.125);
+  EXPECT_EQ(read.checkpoint->fingerprint, "");
+  EXPECT_NE(write(read).find(fingerprint(read)), std::string::npos);  // from now on it has one
+  EXPECT_FALSE(refusal([&] { read_motion(write(read)); }));
+}
+
 TEST(MotionRefuses, CheckpointsOfOtherProblems) {
   Problem problem = examples::rich_problem();
   Motion motion;
@@ -337,6 +367,9 @@ TEST(MotionRefuses, CheckpointsOfOtherProblems) {
   expect("/dofs", "use the motion without its checkpoint", [](Motion& m) { m.dofs.pop_back(); });
   expect("/dofs", "where the motion has 'other'", [](Motion& m) { m.dofs[0].name = "other"; });
   expect("/parameters", "use the motion without its checkpoint", [](Motion& m) { m.parameters.clear(); });
+  expect("/parameters", "'speed', which the motion has not", [](Motion& m) { m.parameters[0].first = "other"; });
+  std::ranges::reverse(motion.parameters);  // members of an object
+  EXPECT_FALSE(validate(motion, problem));
   expect("/time", "is not the problem's", [](Motion& m) { m.end += 1; });
   expect("/checkpoint/edits/1/name", "there is no constraint or term", [&](Motion& m) {
     m.checkpoint->edits = {SetConstant{problem.constants[0].name, {2, {}, 0}}, Disable{"nothing"}};

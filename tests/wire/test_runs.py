@@ -1,6 +1,10 @@
 """Runs: cancelled, edited while they go on, and replayed from their logs."""
+import json
+import os
 import random
 import statistics
+import subprocess
+import tempfile
 import time
 import unittest
 
@@ -343,6 +347,34 @@ class Runs(unittest.TestCase):
                 one.do(action="solve")
             self.assertEqual(without_seconds(session.motion()), without_seconds(later.motion()))
 
+    def test_numbers_rounded_on_the_way_are_told(self):
+        def fifteen_digits(document):
+            return json.loads(json.dumps(document), parse_float=lambda digits: float("%.15g" % float(digits)))
+
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            load = session.peer.start("problem/load", problem=fifteen_digits(self.problem))
+            fault = session.peer.answer(load)["error"]
+            self.assertRegex(fault["data"]["path"], "^/problem/programs/[0-9a-f]{32}$")
+            self.assertIn("numbers have probably been rounded on the way", fault["message"])
+            session.load(self.problem)
+            checkpoint = session.checkpoint_after(5)
+            fault = session.peer.answer(session.peer.start("motion/set", motion=fifteen_digits(checkpoint)))["error"]
+            self.assertEqual((fault["code"], fault["data"]["path"]), (-32602, "/motion/checkpoint/fingerprint"))
+            self.assertIn("numbers have probably been rounded on the way", fault["message"])
+            # Members in another order and numbers in other words are the same.
+            other = json.dumps(checkpoint, sort_keys=True).replace(": 0.5,", ": 5.0e-1,")
+            session.peer.ask("motion/set", motion=json.loads(other))
+            with tempfile.TemporaryDirectory() as directory:
+                files = [os.path.join(directory, name) for name in ("problem", "start")]
+                for file, document in zip(files, (self.problem, fifteen_digits(checkpoint))):
+                    with open(file, "w", encoding="utf-8") as out:
+                        json.dump(document, out)
+                solve = [peer.path_of("optimizer"), "solve", files[0], "--start", files[1]]
+                solved = subprocess.run(solve, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                self.assertEqual(solved.returncode, 1)
+                self.assertIn(b"numbers have probably been rounded on the way", solved.stderr)
+
     def test_a_checkpoint_undoes_what_came_after_it(self):
         with peer.Daemon("optimizer") as daemon:
             session = Session(daemon)
@@ -389,6 +421,8 @@ class Runs(unittest.TestCase):
             fault = session.peer.answer(session.peer.start("motion/set", motion=checkpoint))["error"]
             self.assertEqual(fault["data"]["path"], "/motion/checkpoint/problem")
             checkpoint["checkpoint"]["newton"]["active"] = [1]
+            checkpoint["format"] = "spacetime-motion/1"  # which has no fingerprint
+            del checkpoint["checkpoint"]["fingerprint"]
             session.peer.ask("problem/update", problem=self.problem)
             fault = session.peer.answer(session.peer.start("motion/set", motion=checkpoint))["error"]
             self.assertEqual(fault["data"]["path"], "/motion/checkpoint/newton/active")
