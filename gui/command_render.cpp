@@ -32,7 +32,7 @@ constexpr int samples_a_pixel = 4;
 constexpr int most_frames = 100000;  // an hour at 28 a second; more is a slip of the pen
 
 struct Options {
-  std::string motion, output, problem, size, view, theme = "light";
+  std::string motion, output, problem, size, view, camera, theme = "light";
   double rate = 30;
   int strip = 0;
   bool apart = false;
@@ -89,6 +89,10 @@ class Studio {
 
   // Where all of a room can be seen.
   void stand(const Box& bounds, const Options& options) {
+    if (!options.camera.empty()) {
+      camera_ = read_camera(options.camera);
+      return;
+    }
     const auto view = view_of(options.view).value_or(planar(bounds) ? View::front : View::free);
     camera_ = overview(bounds, view, {size_.width, size_.height});
   }
@@ -266,6 +270,12 @@ Command add_render(CLI::App& app) {
   command->add_option("--size", options->size, "Of a picture, in pixels: 1280x720 unless said");
   command->add_option("--view", options->view, "From where; by default front where all moves in a plane, else free")
       ->check(CLI::IsMember({"front", "side", "top", "free"}));
+  command
+      ->add_option(
+          "--camera", options->camera,
+          "From exactly there: X,Y,Z,YAW,PITCH,DISTANCE in metres and degrees, of the point that is looked at, "
+          "the angles about it and how far the eye is from it; and ,orthographic")
+      ->excludes("--view");
   command->add_option("--theme", options->theme, "Light or dark")
       ->check(CLI::IsMember({"light", "dark"}))
       ->capture_default_str();

@@ -60,6 +60,7 @@ struct MakeFilm {  // frames/%04d.png, a .mp4, or one .png with so many poses
   double rate = 30;                           // frames a second
   int strip = 0;
   bool dark = false;
+  std::string camera{};  // as `render --camera` takes it
 };
 struct StopFilm {};
 struct KeepSettings {

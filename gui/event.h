@@ -55,6 +55,7 @@ struct Ask {  // the console: an expression to print, differentiate `by`, evalua
 struct Film {  // of the present motion, into pictures, a film or (where `strip` is above 0) one picture of many poses
   std::string file;
   int strip = 0;
+  std::string camera{};  // as `render --camera` takes it; empty: where all can be seen
 };
 struct DropFilm {};  // stops making it
 

@@ -27,75 +27,104 @@ std::string last_line(const std::string& said) {
 
 }  // namespace
 
-Filming::~Filming() { stop(); }
+Filming::~Filming() {
+  stop();
+  for (Making& making : makings_) making.thread.join();
+}
 
 void Filming::stop() {
-  if (const int process = process_; process > 0) ::kill(process, SIGTERM);
-  if (thread_.joinable()) thread_.join();
-  process_ = 0;
+  for (Making& making : makings_) {
+    const std::lock_guard lock(making.mutex);
+    making.stopped = true;
+    if (making.process > 0) ::kill(making.process, SIGTERM);
+  }
 }
 
 void Filming::perform(const MakeFilm& effect) {
   stop();
+  for (auto making = makings_.begin(); making != makings_.end();) {
+    if (!making->over) {
+      ++making;
+      continue;
+    }
+    making->thread.join();
+    making = makings_.erase(making);
+  }
+  Making& making = makings_.emplace_back();
   const std::string motion_file =
-      std::filesystem::temp_directory_path() / fmt::format("spacetime-{}.motion.json", getpid());
+      std::filesystem::temp_directory_path() / fmt::format("spacetime-{}-{}.motion.json", getpid(), ++made_);
+  making.thread = std::thread([this, &making, effect, motion_file] {
+    make(making, effect, motion_file);
+    std::error_code none;
+    std::filesystem::remove(motion_file, none);
+    making.over = true;
+  });
+}
+
+void Filming::tell(Making& making, Filmed event) {
+  const std::lock_guard lock(making.mutex);
+  if (!making.stopped) post_(std::move(event));
+}
+
+void Filming::make(Making& making, const MakeFilm& effect, const std::string& motion_file) {
   std::array<int, 2> pipe{};
   try {
     write_text(motion_file, *effect.motion);
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw InputError("no pipes are left");
   } catch (const InputError& error) {
-    return post_(Filmed{effect.file, error.what(), Filmed::What::failed});
+    return tell(making, {effect.file, error.what(), Filmed::What::failed});
   }
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "spacetime-gui";
-  const std::string rate = fmt::format("{}", effect.rate);
-  const std::string poses = fmt::format("{}", effect.strip);
-  const std::string theme = effect.dark ? "dark" : "light";
-  std::vector<const char*> arguments{self.c_str(),        "render",  motion_file.c_str(), "-o",
-                                     effect.file.c_str(), "--theme", theme.c_str()};
+  std::vector<std::string> words{
+      self, "render", motion_file, "-o", effect.file, "--theme", effect.dark ? "dark" : "light"};
+  if (!effect.camera.empty()) words.push_back("--camera=" + effect.camera);
   if (effect.strip > 0) {
-    arguments.insert(arguments.end(), {"--strip", poses.c_str()});
+    words.push_back(fmt::format("--strip={}", effect.strip));
   } else {
-    arguments.insert(arguments.end(), {"--rate", rate.c_str()});
+    words.push_back(fmt::format("--rate={}", effect.rate));
   }
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  const int child = ::fork();
+  int child = -1;
+  {
+    const std::lock_guard lock(making.mutex);
+    if (!making.stopped) child = ::fork();
+    if (child == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // with this thread, which waits for it
+      ::dup2(pipe[1], STDERR_FILENO);
+      ::execv(self.c_str(), arguments.data());
+      ::_exit(127);
+    }
+    if (child > 0) making.process = child;
+  }
+  ::close(pipe[1]);
   if (child < 0) {
     ::close(pipe[0]);
-    ::close(pipe[1]);
-    return post_(Filmed{effect.file, "no process can be started", Filmed::What::failed});
+    return tell(making, {effect.file, "no process can be started", Filmed::What::failed});
   }
-  if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    ::dup2(pipe[1], STDERR_FILENO);
-    ::execv(self.c_str(), const_cast<char**>(arguments.data()));
-    ::_exit(127);
-  }
-  process_ = child;
-  ::close(pipe[1]);
-  thread_ = std::thread([this, output = pipe[0], process = child, motion_file, file = effect.file] {
-    watch(output, process, motion_file, file);
-  });
-}
-
-void Filming::watch(int output, int process, const std::string& motion_file, const std::string& file) {
   std::string said;
   std::array<char, 4096> block{};
   while (true) {
-    const ssize_t bytes = ::read(output, block.data(), block.size());
+    const ssize_t bytes = ::read(pipe[0], block.data(), block.size());
     if (bytes < 0 && errno == EINTR) continue;
     if (bytes <= 0) break;
     said.append(block.data(), static_cast<std::size_t>(bytes));
     if (said.size() > block.size()) said.erase(0, said.size() - block.size());
-    post_(Filmed{file, last_line(said), Filmed::What::progress});
+    tell(making, {effect.file, last_line(said), Filmed::What::progress});
   }
-  ::close(output);
+  ::close(pipe[0]);
+  // It ends, and its number stays its own until it has been waited for.
+  siginfo_t ended{};
+  while (::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) < 0 && errno == EINTR) continue;
   int status = 0;
-  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
-  process_ = 0;
-  std::error_code none;
-  std::filesystem::remove(motion_file, none);
+  {
+    const std::lock_guard lock(making.mutex);
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    making.process = 0;
+  }
   const bool done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  post_(Filmed{file, last_line(said), done ? Filmed::What::done : Filmed::What::failed});
+  tell(making, {effect.file, last_line(said), done ? Filmed::What::done : Filmed::What::failed});
 }
 
 }  // namespace spacetime::gui

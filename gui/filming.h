@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <functional>
+#include <list>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -15,19 +17,29 @@ class Filming {
  public:
   // `post` is called in another thread.
   explicit Filming(std::function<void(Event)> post) : post_(std::move(post)) {}
-  ~Filming();  // what is being made is given up
+  ~Filming();  // what is being made is given up, and waited for
   Filming(const Filming&) = delete;
   Filming& operator=(const Filming&) = delete;
 
+  // Both return at once.
   void perform(const MakeFilm& effect);  // ends what is being made
   void stop();
 
  private:
-  void watch(int output, int process, const std::string& motion_file, const std::string& file);
+  // One that is being made, or was.
+  struct Making {
+    std::mutex mutex;
+    bool stopped = false;  // nothing is told of it any more
+    int process = 0;       // 0: not yet, or it has been waited for
+    std::atomic<bool> over = false;
+    std::thread thread;
+  };
+  void make(Making& making, const MakeFilm& effect, const std::string& motion_file);
+  void tell(Making& making, Filmed event);
 
   const std::function<void(Event)> post_;
-  std::atomic<int> process_ = 0;  // 0: none, or it has been waited for
-  std::thread thread_;
+  std::list<Making> makings_;
+  int made_ = 0;
 };
 
 }  // namespace spacetime::gui

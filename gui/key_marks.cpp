@@ -67,7 +67,11 @@ class Walk {
     if (entry.iterated && solved_last) settle();
   }
 
-  std::vector<KeyMark> take() { return std::move(marks_); }
+  // The sketch's last, so that the mouse meets the others first.
+  std::vector<KeyMark> take() {
+    std::ranges::stable_partition(marks_, [](const KeyMark& mark) { return !mark.sketched; });
+    return std::move(marks_);
+  }
 
  private:
   static std::optional<Action> action_of(const std::string& text) {

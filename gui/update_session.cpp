@@ -25,6 +25,7 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
   next.optimizer = state.optimizer;
   next.recent = std::move(state.recent);
   next.left = std::move(state.left);
+  next.film = std::move(state.film);  // it is of the motion that was, and goes on
   next.clock = state.clock;
   next.dark = state.dark;
   next.playback = state.playback;
@@ -124,11 +125,12 @@ void apply(State&, const Open& event, Effects& effects) { effects.push_back(Read
 void apply(State& state, const OpenText& event, Effects& effects) { open_text(state, "", event.text, effects); }
 
 void apply(State& state, const Film& event, Effects& effects) {
+  if (state.film) return;  // one at a time
   if (state.present < 0 || !state.log[state.present].checkpoint)
     return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet."});
   state.film = {event.file, ""};
-  effects.push_back(
-      MakeFilm{event.file, state.log[state.present].checkpoint, state.playback.rate, event.strip, state.dark});
+  effects.push_back(MakeFilm{event.file, state.log[state.present].checkpoint, state.playback.rate, event.strip,
+                             state.dark, event.camera});
 }
 
 void apply(State& state, const DropFilm&, Effects& effects) {

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+
+#include "common/diagnostic.h"
 
 namespace spacetime::gui {
 namespace {
@@ -130,6 +133,31 @@ Ray ray_through(const Camera& camera, const glm::vec2& size, const glm::vec2& pi
   const glm::vec3 at = camera.target + off.x * right - off.y * up;
   if (camera.orthographic) return {at + 20 * camera.distance * back, -back};
   return {eye(camera), glm::normalize(at - eye(camera))};
+}
+
+std::string camera_text(const Camera& camera) {
+  constexpr float degrees = 90 / quarter;
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g%s", camera.target.x, camera.target.y,
+                camera.target.z, camera.yaw * degrees, camera.pitch * degrees, camera.distance,
+                camera.orthographic ? ",orthographic" : "");
+  return text.data();
+}
+
+Camera read_camera(const std::string& text) {
+  Camera camera;
+  int read = 0;
+  const int numbers = std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", &camera.target.x, &camera.target.y,
+                                  &camera.target.z, &camera.yaw, &camera.pitch, &camera.distance, &read);
+  const std::string rest = numbers == 6 ? text.substr(static_cast<std::size_t>(read)) : "?";
+  camera.orthographic = rest == ",orthographic";
+  const bool finite = std::isfinite(glm::dot(camera.target, camera.target)) && std::isfinite(camera.yaw) &&
+                      std::isfinite(camera.distance);
+  if ((!rest.empty() && !camera.orthographic) || !finite || !(camera.distance > 0) || !(std::abs(camera.pitch) <= 90))
+    throw InputError("'" + text + "' is no camera: write it X,Y,Z,YAW,PITCH,DISTANCE, in metres and degrees");
+  camera.yaw *= quarter / 90;
+  camera.pitch *= quarter / 90;
+  return camera;
 }
 
 }  // namespace spacetime::gui

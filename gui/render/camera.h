@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 
 #include "gui/render/picture.h"
 
@@ -27,6 +28,11 @@ enum class View {
   top,    // down
   free,   // from the front, the right and above
 };
+
+// As text: "X,Y,Z,YAW,PITCH,DISTANCE", metres and degrees, with ",orthographic" where it is.  `read_camera` throws
+// InputError for what is none, or not in front of anything.
+std::string camera_text(const Camera& camera);
+Camera read_camera(const std::string& text);
 
 Camera looking(View view, Camera camera = {});  // turned so, everything else as it was
 

@@ -58,7 +58,8 @@ void draw_constants(Ui& ui) {
         const float speed = static_cast<float>(std::max(std::abs(before), 0.1) * 0.005);
         ImGui::DragScalar(("##" + constant.name).c_str(), ImGuiDataType_Double, &value, speed, nullptr, nullptr,
                           "%.5g");
-        ui.here("constant " + constant.name);
+        ui.control("constant " + constant.name,
+                   "Drag it, and the motion follows; double click to write a number. Esc goes back.");
         const bool typing = ImGui::IsItemActive() && ImGui::GetIO().WantTextInput;
         const bool usable = std::isfinite(value) && !ui.memory.drag_dropped;
         if (ImGui::IsItemEdited() && !typing && usable) ui.emit(Steer{setting({{constant.name, value}})});

@@ -235,25 +235,28 @@ void draw_tools(Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {ui.scaled(3), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(2), 0});
   if (ImGui::RadioButton("curves", m.show == CurvesMemory::Show::curves)) m.show = CurvesMemory::Show::curves;
+  ui.control("show curves", "Degrees of freedom and expressions over time.");
   if (ImGui::RadioButton("residuals", m.show == CurvesMemory::Show::residuals)) m.show = CurvesMemory::Show::residuals;
-  ui.here("residuals");
-  ui.help("By how much each constraint is off, at each of its instances. Select one in the equations to see it alone.");
+  ui.control(
+      "residuals",
+      "By how much each constraint is off, at each of its instances. Select one in the equations to see it alone.");
   if (m.show == CurvesMemory::Show::curves) {
     ImGui::Checkbox("q", &m.derivative[0]);
+    ui.control("values", "The curves themselves.");
     ImGui::SameLine();
     ImGui::Checkbox("q'", &m.derivative[1]);
-    ui.here("first derivative");
+    ui.control("first derivative", "Their velocities.");
     ImGui::SameLine();
     ImGui::Checkbox("q''", &m.derivative[2]);
+    ui.control("second derivative", "Their accelerations.");
     ImGui::Checkbox("controls", &m.controls);
-    ui.here("controls");
+    ui.control("controls", "Coefficients, which can be dragged.");
   }
   if (ImGui::SmallButton("Fit")) fit(ui);
-  ui.here("fit");
-  ui.help(
-      "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
-      "dragging "
-      "with the right button moves.");
+  ui.control("fit",
+             "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
+             "dragging "
+             "with the right button moves.");
   ImGui::PopStyleVar(3);
 }
 

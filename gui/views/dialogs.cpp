@@ -1,7 +1,6 @@
 #include "gui/views/dialogs.h"
 
 #include <fmt/format.h>
-#include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
@@ -10,14 +9,13 @@
 
 #include "common/diagnostic.h"
 #include "common/files.h"
+#include "gui/views/files.h"
 #include "gui/views/new_scene.h"
 
 namespace spacetime::gui {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool escaped() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
 
 struct Example {
   std::string file, name, about;
@@ -63,8 +61,7 @@ void draw_left_behind(Ui& ui) {
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
-    ui.here("recover " + name);
-    ui.help("Everything that was done in it comes back, undo included.");
+    ui.control("recover " + name, "Everything that was done in it comes back, undo included.");
   }
   ImGui::Spacing();
 }
@@ -99,7 +96,7 @@ void draw_welcome(Ui& ui) {
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
-    ui.here("example " + example.name);
+    ui.control("example " + example.name, "Open a copy of it: the example itself stays as it is.");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText(ui.memory.fonts.strong, ImGui::GetFontSize(), {at.x + 8, at.y + 3}, packed(ui.colours().text),
                  example.name.c_str());
@@ -113,20 +110,21 @@ void draw_welcome(Ui& ui) {
     ui.memory.welcome = false;
     ImGui::CloseCurrentPopup();
   }
-  ui.here("new scene");
-  ui.help("Begin with a scene of a few lines that can be run and changed.");
+  ui.control("new scene", "Begin with a scene of a few lines that can be run and changed.");
   ImGui::SameLine();
   if (ImGui::Button("Open a file...")) {
     ui.memory.files.dialog = FilesMemory::Dialog::open;
     ui.memory.welcome = false;
     ImGui::CloseCurrentPopup();
   }
+  ui.control("welcome open", "A scene of your own.");
   ImGui::SameLine();
-  if (ImGui::Button("Close") || escaped()) {
+  const bool closed = ImGui::Button("Close");
+  ui.control("close welcome", "Put this away (Esc); File, Examples brings it back.");
+  if (closed || escaped()) {
     ui.memory.welcome = false;
     ImGui::CloseCurrentPopup();
   }
-  ui.here("close welcome");
   ImGui::EndPopup();
 }
 
@@ -170,119 +168,10 @@ void draw_shortcuts(Ui& ui) {
     }
     ImGui::EndTable();
   }
-  if (ImGui::Button("Close") || escaped()) ui.memory.shortcuts = false;
+  const bool closed = ImGui::Button("Close");
+  ui.control("close shortcuts", "Put this list away (Esc).");
+  if (closed || escaped()) ui.memory.shortcuts = false;
   if (!ui.memory.shortcuts) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-}
-
-void list_folder(Ui& ui) {
-  FilesMemory& m = ui.memory.files;
-  std::vector<std::pair<bool, std::string>> names;  // not a folder, name: folders come first
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(m.folder, failed)) {
-    const std::string name = entry.path().filename();
-    const bool folder = entry.is_directory(failed);
-    if (name.starts_with('.') || (!folder && entry.path().extension() != ".scene")) continue;
-    names.emplace_back(!folder, name);
-  }
-  std::ranges::sort(names);
-  ImGui::BeginChild("files", {0, ui.scaled(260)}, true);
-  if (ImGui::Selectable("../")) m.folder = fs::path(m.folder).parent_path();
-  for (const auto& [plain, name] : names) {
-    if (ImGui::Selectable((plain ? name : name + "/").c_str(), m.name == name)) {
-      if (plain)
-        m.name = name;
-      else
-        m.folder = fs::path(m.folder) / name;
-    }
-  }
-  if (failed) ImGui::TextColored(ui.colours().bad, "This folder cannot be read.");
-  ImGui::EndChild();
-}
-
-// What a film's name says will be made.
-const char* film_kind(const std::string& name) {
-  if (name.ends_with(".mp4")) return "A film, made by ffmpeg.";
-  if (name.ends_with(".png") && name.find('%') != std::string::npos) return "A picture for every frame.";
-  if (name.ends_with(".png")) return "One picture with twelve poses, like the strips in the papers.";
-  return nullptr;
-}
-
-void draw_film(Ui& ui) {
-  FilesMemory& m = ui.memory.files;
-  if (!ImGui::IsPopupOpen("Make a film")) {
-    ImGui::OpenPopup("Make a film");
-    m.folder = ui.state.file.empty() ? fs::current_path() : fs::absolute(ui.state.file).parent_path();
-    m.name = ui.state.file.empty() ? "film.mp4" : fs::path(ui.state.file).stem().string() + ".mp4";
-  }
-  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({ui.scaled(520), 0});
-  if (!ImGui::BeginPopupModal("Make a film", nullptr, ImGuiWindowFlags_NoResize)) return;
-  ImGui::TextDisabled("%s", m.folder.c_str());
-  ImGui::SetNextItemWidth(-1);
-  ImGui::InputText("##film", &m.name);
-  ui.here("film name");
-  const char* kind = film_kind(m.name);
-  ImGui::TextWrapped("%s", kind ? kind : "Name it film.mp4, strip.png, or frames/%04d.png.");
-  if (!kind) ImGui::BeginDisabled();
-  const bool pressed = ImGui::Button("Make", {ui.scaled(100), 0});
-  ui.here("make film");
-  if (!kind) ImGui::EndDisabled();
-  ImGui::SameLine();
-  if (pressed && kind) {
-    const bool strip = m.name.ends_with(".png") && m.name.find('%') == std::string::npos;
-    ui.emit(Film{fs::path(m.folder) / m.name, strip ? 12 : 0});
-  }
-  if (ImGui::Button("Cancel", {ui.scaled(100), 0}) || pressed || escaped()) {
-    m.dialog = FilesMemory::Dialog::none;
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
-}
-
-void draw_files(Ui& ui) {
-  FilesMemory& m = ui.memory.files;
-  if (m.dialog == FilesMemory::Dialog::film) return draw_film(ui);
-  const bool open = m.dialog == FilesMemory::Dialog::open;
-  if (m.dialog == FilesMemory::Dialog::none) return;
-  const char* title = open ? "Open a scene" : "Save the scene";
-  if (!ImGui::IsPopupOpen(title)) {
-    ImGui::OpenPopup(title);
-    const fs::path file = ui.state.file.empty() ? fs::path() : fs::absolute(ui.state.file);
-    m.folder = file.empty() ? fs::current_path() : file.parent_path();
-    m.name = open ? "" : file.empty() ? "untitled.scene" : std::string(file.filename());
-  }
-  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({ui.scaled(560), 0});
-  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoResize)) return;
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextDisabled("%s", m.folder.c_str());
-  ImGui::PopTextWrapPos();
-  list_folder(ui);
-  ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##name", &m.name, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.here("file name");
-  const fs::path chosen = fs::path(m.folder) / m.name;
-  std::error_code none;
-  const bool exists = !m.name.empty() && fs::is_regular_file(chosen, none);
-  if (!open && exists) ImGui::TextColored(ui.colours().warning, "This file will be replaced.");
-  const bool possible = open ? exists : !m.name.empty();
-  if (!possible) ImGui::BeginDisabled();
-  const bool pressed = ImGui::Button(open ? "Open" : "Save", {ui.scaled(100), 0});
-  ui.here("confirm file");
-  if (!possible) ImGui::EndDisabled();
-  ImGui::SameLine();
-  const bool cancelled = ImGui::Button("Cancel", {ui.scaled(100), 0}) || escaped();
-  if (possible && (pressed || entered)) {
-    if (open)
-      leave_for(ui, {Leaving::To::file, chosen});
-    else
-      ui.emit(Save{chosen});
-  }
-  if (cancelled || (possible && (pressed || entered))) {
-    m.dialog = FilesMemory::Dialog::none;
-    ImGui::CloseCurrentPopup();
-  }
   ImGui::EndPopup();
 }
 
@@ -325,20 +214,20 @@ void draw_guard(Ui& ui) {
     }
     ImGui::CloseCurrentPopup();
   }
-  ui.here("guard save");
+  ui.control("guard save", "Save first.");
   ImGui::SameLine();
   if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
     ui.memory.discard = next.to == Leaving::To::quit;
     go(ui, next);
     ImGui::CloseCurrentPopup();
   }
-  ui.here("guard discard");
+  ui.control("guard discard", "Go on without saving: the changes are lost.");
   ImGui::SameLine();
   if (ImGui::Button("Cancel", {ui.scaled(110), 0})) {
     ui.memory.leaving.reset();
     ImGui::CloseCurrentPopup();
   }
-  ui.here("guard cancel");
+  ui.control("guard cancel", "Stay with this scene.");
   ImGui::EndPopup();
 }
 

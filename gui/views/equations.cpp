@@ -42,16 +42,18 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
   }
   const bool entered =
       ImGui::InputTextWithHint(("##draft " + about).c_str(), hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.here("draft " + about);
+  ui.control("draft " + about,
+             "As in the scene's text, without its first word. Enter applies it; a mistake is told below.");
   ImGui::PopFont();
   if (text != ui.state.drafts.at(about)) ui.emit(Draft{about, text});
   if (entered) ui.memory.focused_drafts.erase(about);  // stays where it was typed, in case of a mistake
   const bool told = ui.notices(place, about);
   const bool applied = ImGui::SmallButton(("Apply##" + about).c_str());
   if ((entered || applied) && !text.empty()) ui.act(prefix + text, place, about);
-  ui.here("apply " + about);
+  ui.control("apply " + about, "Make this a line of the scene (Enter).");
   ImGui::SameLine();
   if (ImGui::SmallButton(("Cancel##" + about).c_str())) ui.emit(Draft{about, std::nullopt});
+  ui.control("cancel " + about, "Forget what was written here.");
   if (told) ImGui::SetScrollHereY(1);
 }
 
@@ -86,15 +88,24 @@ void draw_menu(Ui& ui, const Equation& equation) {
     ImGui::TextDisabled("Give it a name in the scene to edit it here:");
     ImGui::TextDisabled("constrain NAME: ...");
   }
-  if (ImGui::MenuItem("Edit", nullptr, false, equation.named)) ui.emit(Draft{name, body_of(equation)});
-  if (ImGui::MenuItem(equation.enabled ? "Disable" : "Enable", nullptr, false, equation.named))
+  const auto entry = [&](const char* label, bool possible, const char* help) {
+    const bool chosen = ImGui::MenuItem(label, nullptr, false, possible);
+    ui.control(std::string("equation menu ") + label, help);
+    return chosen;
+  };
+  if (entry("Edit", equation.named, "Write it anew, in place.")) ui.emit(Draft{name, body_of(equation)});
+  if (entry(equation.enabled ? "Disable" : "Enable", equation.named, "Whether it counts."))
     ui.act((equation.enabled ? disable_words(name) : enable_words(name)).line, place, name);
-  if (ImGui::MenuItem("Make hard", nullptr, false, equation.named && equation.weight && !equation.objective))
+  if (entry("Make hard", equation.named && equation.weight && !equation.objective, "It must hold."))
     ui.act(weight_words(name, std::numeric_limits<double>::infinity()).line, place, name);
-  if (ImGui::MenuItem("Make soft, weight 1", nullptr, false, equation.named && !equation.weight))
+  if (entry("Make soft, weight 1", equation.named && !equation.weight, "It may be violated, at a price."))
     ui.act(weight_words(name, 1).line, place, name);
-  if (ImGui::MenuItem("Delete", nullptr, false, equation.named)) ui.act(delete_words(name).line, place, name);
-  if (ImGui::MenuItem("Show in the scene's text")) ui.memory.scroll_to_line = equation.line;
+  if (entry("Delete", equation.named, "Take it out of the scene; undo brings it back."))
+    ui.act(delete_words(name).line, place, name);
+  if (entry("Show in the scene's text", true, "Where it is written.")) {
+    ui.memory.scroll_to_line = equation.line;
+    ui.memory.tab_right = scene_tab;
+  }
   ImGui::EndPopup();
 }
 
@@ -110,9 +121,8 @@ void draw_weight(Ui& ui, const Equation& equation) {
   ImGui::InputDouble(("##weight " + equation.name).c_str(), &weight, 0, 0, "%.4g");
   if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight && std::isfinite(weight))
     ui.act(weight_words(equation.name, weight).line, place, equation.name);
-  ui.here("weight " + equation.name);
+  ui.control("weight " + equation.name, "How much it counts in the objective.");
   if (!equation.named) ImGui::EndDisabled();
-  ui.help("How much it counts in the objective.");
 }
 
 void draw_row(Ui& ui, const Equation& equation) {
@@ -122,10 +132,10 @@ void draw_row(Ui& ui, const Equation& equation) {
   if (!equation.named) ImGui::BeginDisabled();
   if (ImGui::Checkbox(("##on " + equation.name).c_str(), &enabled))
     ui.act((enabled ? enable_words(equation.name) : disable_words(equation.name)).line, place, equation.name);
-  ui.here("enable " + equation.name);
+  ui.control("enable " + equation.name,
+             equation.named ? "Whether it counts."
+                            : "Only what has a name in the scene can be edited here: constrain NAME: ...");
   if (!equation.named) ImGui::EndDisabled();
-  ui.help(equation.named ? "Whether it counts."
-                         : "Only what has a name in the scene can be edited here: constrain NAME: ...");
   ImGui::TableNextColumn();
   const bool selected = ui.state.selection.constraint == equation.name;
   if (!equation.enabled) ImGui::PushStyleColor(ImGuiCol_Text, ui.colours().faint);
@@ -135,10 +145,9 @@ void draw_row(Ui& ui, const Equation& equation) {
     ui.emit(Select{selection});
     if (ImGui::IsMouseDoubleClicked(0) && equation.named) ui.emit(Draft{equation.name, body_of(equation)});
   }
-  ui.here("equation " + equation.name);
+  ui.control("equation " + equation.name, equation.text + "\n\nDouble click to edit, right button for more.");
   if (!equation.enabled) ImGui::PopStyleColor();
   draw_menu(ui, equation);
-  ui.help((equation.text + "\n\nDouble click to edit, right button for more.").c_str());
   ImGui::TableNextColumn();
   draw_weight(ui, equation);
   ImGui::TableNextColumn();
@@ -163,8 +172,7 @@ void draw_equations(Ui& ui) {
     const std::string fresh = objective ? "new objective" : "new constraint";
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - ui.scaled(44));
     if (ImGui::SmallButton(("+ Add##" + fresh).c_str())) ui.emit(Draft{fresh, std::string()});
-    ui.here("add " + fresh);
-    ui.help(objective ? "Add a term of the objective." : "Add a constraint.");
+    ui.control("add " + fresh, objective ? "Add a term of the objective." : "Add a constraint.");
     if (ImGui::BeginTable(objective ? "objective" : "constraints", 4, ImGuiTableFlags_RowBg)) {
       ImGui::TableSetupColumn("on", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
       ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);

@@ -74,7 +74,7 @@ void draw_expressions(Ui& ui, const Problem& problem) {
     if (of != creature) {
       if (!creature.empty() && open) ImGui::TreePop();
       open = of.empty() || ImGui::TreeNode(of.c_str());
-      if (!of.empty()) ui.here("expressions " + of);
+      if (!of.empty()) ui.control("expressions " + of, "What can be shown of it as curves.");
       creature = of;
     }
     if (!open) continue;
@@ -84,7 +84,7 @@ void draw_expressions(Ui& ui, const Problem& problem) {
       toggle(selection.expressions, plot.name);
       ui.emit(Select{selection});
     }
-    ui.here("expression " + plot.name);
+    ui.control("expression " + plot.name, "Click to show its curve; of a point, its way as well.");
   }
   if (!creature.empty() && open) ImGui::TreePop();
 }
@@ -119,9 +119,8 @@ void draw_freedoms(Ui& ui) {
       question.window || std::ranges::any_of(question.dofs, [](const Freedom& f) { return !f.in_window; });
   if (!narrowed) ImGui::BeginDisabled();
   if (ImGui::SmallButton("Free all")) ui.act(window_all_words().line);
-  ui.here("free all");
+  ui.control("free all", "Opens the window: everything moves again at all times.");
   if (!narrowed) ImGui::EndDisabled();
-  ui.help("Opens the window: everything moves again at all times.");
   if (ImGui::BeginTable("freedoms", 4, ImGuiTableFlags_RowBg)) {
     ImGui::TableSetupColumn("free", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
@@ -139,17 +138,16 @@ void draw_freedoms(Ui& ui) {
         // A window has to free something: taking the last one out is not possible.
         if (!names.empty()) ui.act(window_line(question, problem, interval, names));
       }
-      ui.here("free " + dof.name);
-      ui.help("In the window: the optimiser may change it.");
+      ui.control("free " + dof.name, "In the window: the optimiser may change it.");
       ImGui::TableNextColumn();
       if (draw_shown(ui, dof.name, dof.name, is_among(s.selection.dofs, dof.name))) {
         Selection selection = s.selection;
         toggle(selection.dofs, dof.name);
         ui.emit(Select{selection});
       }
-      ui.here("dof " + dof.name);
+      ui.control("dof " + dof.name,
+                 "Click to show its curve; right button to smooth, shake, refine, damp or bound it.");
       draw_menu(ui, dof);
-      ui.help("Click to show its curve; right button to smooth, shake, refine, damp or bound it.");
       ImGui::TableNextColumn();
       if (s.curves) {
         const auto curve = std::ranges::find(s.curves->dofs, dof.name, &Trajectory::name);

@@ -14,13 +14,13 @@
 namespace spacetime::gui {
 namespace {
 
-constexpr int text_tab = 1;  // of the tools
-constexpr float gap = 6;     // between panels, pixels at scale 1; also what is dragged to resize them
+constexpr float gap = 6;  // between panels, pixels at scale 1; also what is dragged to resize them
 
 // Between two panels; `size` is that of the panel it resizes, which grows by `sign` times the mouse's movement.
 void draw_splitter(Ui& ui, const char* name, const Rect& r, float& size, float sign, float least, float most) {
   ImGui::SetCursorPos({r.x, r.y});
   ImGui::InvisibleButton(name, {std::max(1.0F, r.width), std::max(1.0F, r.height)});
+  ui.control(name, "Drag to share the room out anew.");
   const bool upright = r.width < r.height;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive())
     ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
@@ -31,6 +31,7 @@ void draw_splitter(Ui& ui, const char* name, const Rect& r, float& size, float s
 
 struct Tab {
   const char* name;
+  const char* help;
   void (*draw)(Ui&);
 };
 
@@ -39,7 +40,7 @@ void draw_tabs(Ui& ui, const char* id, std::initializer_list<Tab> tabs, int& wan
   int index = 0;
   for (const Tab& tab : tabs) {
     const bool open = ImGui::BeginTabItem(tab.name, nullptr, wanted == index ? ImGuiTabItemFlags_SetSelected : 0);
-    ui.here(std::string("tab ") + tab.name);
+    ui.control(std::string("tab ") + tab.name, tab.help);
     if (open) {
       ImGui::BeginChild(tab.name, {0, 0}, false, 0);
       tab.draw(ui);
@@ -64,12 +65,13 @@ void panel(const char* name, const Rect& r, const Draw& draw, ImGuiWindowFlags f
 void draw_window(Ui& ui, SceneView& scene) {
   Memory& m = ui.memory;
   m.places.clear();
+  m.helped.clear();
   refresh(ui);
   take_keys(ui);
   // A scene with mistakes shows them.
   const bool wrong = ui.state.scene && !ui.state.scene->diagnostics.empty();
   if (wrong && m.mistaken != ui.state.scene) {
-    m.tab_right = text_tab;
+    m.tab_right = scene_tab;
     m.scroll_to_line = ui.state.scene->diagnostics.front().span.line;
   }
   m.mistaken = wrong ? ui.state.scene : nullptr;
@@ -103,8 +105,12 @@ void draw_window(Ui& ui, SceneView& scene) {
   draw_splitter(ui, "bottom edge", {g, middle, width - 2 * g, g}, m.bottom, -1, 120, down * 0.67F);
 
   panel("left", {g, upper, left, middle - upper}, [&] {
-    draw_tabs(ui, "tables", {{"Equations", draw_equations}, {"Constants", draw_constants}, {"Freedom", draw_freedoms}},
-              m.tab_left);
+    draw_tabs(
+        ui, "tables",
+        {{"Equations", "What must hold and what is best: switch, weigh, edit, add.", draw_equations},
+         {"Constants", "Numbers of the scene that can be dragged while the motion follows.", draw_constants},
+         {"Freedom", "Which degrees of freedom may change, their bounds, and which curves are shown.", draw_freedoms}},
+        m.tab_left);
   });
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   panel(
@@ -113,7 +119,10 @@ void draw_window(Ui& ui, SceneView& scene) {
   ImGui::PopStyleVar();
   panel("right", {width - right - g, upper, right, middle - upper}, [&] {
     draw_tabs(ui, "tools",
-              {{"Optimise", draw_optimisation}, {"Scene", draw_text}, {"Log", draw_log}, {"Console", draw_console}},
+              {{"Optimise", "How the motion is found, and how far it is.", draw_optimisation},
+               {"Scene", "The scene's text, with its mistakes.", draw_text},
+               {"Log", "Every act, to go back to.", draw_log},
+               {"Console", "Ask for the value, the derivative or the cost of an expression.", draw_console}},
               m.tab_right);
   });
   panel(

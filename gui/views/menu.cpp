@@ -38,86 +38,114 @@ bool is_pinned(const State& s) {
   return std::ranges::any_of(s.pins, [&](double pin) { return std::abs(pin - s.playback.time) < same_time; });
 }
 
-bool begin_menu(Ui& ui, const char* name) {
-  if (ImGui::BeginMenu(name)) return true;
-  ui.here(std::string("menu ") + name);
+bool begin_menu(Ui& ui, const char* name, const char* help, bool enabled = true) {
+  if (ImGui::BeginMenu(name, enabled)) return true;
+  ui.control(std::string("menu ") + name, help);
   return false;
 }
 
+struct Item {
+  const char* label;
+  const char* keys = nullptr;
+  bool possible = true, chosen = false;
+};
+
+// An entry of a menu; whether it was chosen.
+bool entry(Ui& ui, const Item& item, const std::string& help) {
+  const bool chosen = ImGui::MenuItem(item.label, item.keys, item.chosen, item.possible);
+  const std::string label = item.label;
+  ui.control("menu " + label.substr(0, label.find("##")), help);
+  return chosen;
+}
+
 void draw_file_menu(Ui& ui) {
-  if (!begin_menu(ui, "File")) return;
-  if (ImGui::MenuItem("New scene", "Ctrl+N")) leave_for(ui, {Leaving::To::fresh});
-  ui.here("menu new");
-  if (ImGui::MenuItem("Examples...", "Ctrl+E")) ui.memory.welcome = true;
-  ui.here("menu examples");
-  if (ImGui::MenuItem("Open...", "Ctrl+O")) ui.memory.files.dialog = FilesMemory::Dialog::open;
-  if (ImGui::BeginMenu("Open recent", !ui.state.recent.empty())) {
-    for (const std::string& file : ui.state.recent)
-      if (ImGui::MenuItem(file.c_str())) leave_for(ui, {Leaving::To::file, file});
+  if (!begin_menu(ui, "File", "Scenes: begin, open, save; films.")) return;
+  using Dialog = FilesMemory::Dialog;
+  Dialog& dialog = ui.memory.files.dialog;
+  const State& s = ui.state;
+  if (entry(ui, {"New scene", "Ctrl+N"}, "Begin with a scene of a few lines that can be run and changed."))
+    leave_for(ui, {Leaving::To::fresh});
+  if (entry(ui, {"Examples...", "Ctrl+E"}, "Scenes that come with the program, to try and to change."))
+    ui.memory.welcome = true;
+  if (entry(ui, {"Open...", "Ctrl+O"}, "A scene from a file.")) dialog = Dialog::open;
+  if (begin_menu(ui, "Open recent", "Files that were opened or saved lately.", !s.recent.empty())) {
+    for (const std::string& file : s.recent)
+      if (entry(ui, {file.c_str()}, "Open it.")) leave_for(ui, {Leaving::To::file, file});
     ImGui::EndMenu();
   }
-  if (!ui.state.left.empty() && begin_menu(ui, "Not saved when it ended")) {
-    for (const LeftBehind& left : ui.state.left) {
-      if (ImGui::MenuItem((name_of(left) + "##" + left.journal).c_str()))
+  if (!s.left.empty() && begin_menu(ui, "Not saved when it ended", "Sessions that a crash or a power cut ended.")) {
+    for (const LeftBehind& left : s.left)
+      if (entry(ui, {(name_of(left) + "##" + left.journal).c_str()},
+                "Everything that was done in it comes back, undo included."))
         leave_for(ui, {Leaving::To::file, left.journal});
-      ui.here("menu recover " + name_of(left));
-    }
     ImGui::EndMenu();
   }
   ImGui::Separator();
-  const bool there = ui.state.scene != nullptr;
-  if (ImGui::MenuItem("Save", "Ctrl+S", false, there)) save(ui);
-  ui.here("menu save");
-  if (ImGui::MenuItem("Save as...", nullptr, false, there)) ui.memory.files.dialog = FilesMemory::Dialog::save;
+  const bool there = s.scene != nullptr;
+  if (entry(ui, {"Save", "Ctrl+S", there},
+            "Write the scene with all that was done: solved again, it gives this motion."))
+    save(ui);
+  if (entry(ui, {"Save as...", nullptr, there}, "Write it under another name.")) dialog = Dialog::save;
   ImGui::Separator();
-  if (ImGui::MenuItem("Make a film or pictures...", nullptr, false, ui.state.curves != nullptr && !ui.state.film))
-    ui.memory.files.dialog = FilesMemory::Dialog::film;
-  ui.here("menu film");
+  if (entry(ui, {"Make a film or pictures...", nullptr, s.curves != nullptr && !s.film},
+            "Of the motion shown, into files, while the window goes on."))
+    dialog = Dialog::film;
   ImGui::Separator();
-  if (ImGui::MenuItem("Quit", "Ctrl+Q")) leave_for(ui, {});
+  if (entry(ui, {"Quit", "Ctrl+Q"}, "Close the window; asks about what is not saved.")) leave_for(ui, {});
   ImGui::EndMenu();
 }
 
 void draw_edit_menu(Ui& ui) {
-  if (!begin_menu(ui, "Edit")) return;
+  if (!begin_menu(ui, "Edit", "Undo, poses, and acts on the whole motion.")) return;
   const State& s = ui.state;
-  if (ImGui::MenuItem("Undo", "Ctrl+Z", false, can_undo(s))) ui.emit(Undo{});
-  if (ImGui::MenuItem("Redo", "Ctrl+Y", false, can_redo(s))) ui.emit(Redo{});
+  if (entry(ui, {"Undo", "Ctrl+Z", can_undo(s)}, "Back before the last act, at once.")) ui.emit(Undo{});
+  if (entry(ui, {"Redo", "Ctrl+Y", can_redo(s)}, "What was undone, without solving again.")) ui.emit(Redo{});
   ImGui::Separator();
-  if (ImGui::MenuItem("Key the pose", "K", false, s.pose.has_value())) ui.emit(KeyPose{});
-  if (ImGui::MenuItem("Drop the pose", nullptr, false, s.pose.has_value())) ui.emit(SetPose{});
-  if (ImGui::MenuItem("Copy the pose", "Ctrl+C", false, s.curves != nullptr)) ui.emit(CopyPose{});
-  if (ImGui::MenuItem("Paste the pose", "Ctrl+V", false, s.copied.has_value())) ui.emit(PastePose{});
-  if (ImGui::MenuItem("Paste it mirrored", "Ctrl+Shift+V", false, s.copied.has_value())) ui.emit(PastePose{true});
+  const bool posed = s.pose.has_value(), there = s.curves != nullptr;
+  if (entry(ui, {"Key the pose", "K", posed}, "Pull the motion through the pose that was made, at the time shown."))
+    ui.emit(KeyPose{});
+  if (entry(ui, {"Drop the pose", "Esc", posed}, "Forget the pose that was made.")) ui.emit(SetPose{});
+  if (entry(ui, {"Copy the pose", "Ctrl+C", there}, "Remember the figure as it stands.")) ui.emit(CopyPose{});
+  if (entry(ui, {"Paste the pose", "Ctrl+V", s.copied.has_value()}, "Pose the figure as it was copied; K keys it."))
+    ui.emit(PastePose{});
+  if (entry(ui, {"Paste it mirrored", "Ctrl+Shift+V", s.copied.has_value()},
+            "Likewise, with what is named left and right exchanged."))
+    ui.emit(PastePose{true});
   ImGui::Separator();
-  const bool there = s.curves != nullptr;
-  if (ImGui::MenuItem("Smooth all", nullptr, false, there)) ui.act(filter_words(0.5).line);
-  if (ImGui::MenuItem("Shake all", nullptr, false, there)) ui.act("shake amplitude 0.1");
-  if (ImGui::MenuItem("Refine all", nullptr, false, there)) ui.act("refine");
-  if (ImGui::MenuItem("Back to the declared start", nullptr, false, there)) ui.act(reset_words().line);
+  if (entry(ui, {"Smooth all", nullptr, there}, "Smooth what is free; run again afterwards."))
+    ui.act(filter_words(0.5).line);
+  if (entry(ui, {"Shake all", nullptr, there}, "Disturb what is free, to find another motion."))
+    ui.act("shake amplitude 0.1");
+  if (entry(ui, {"Refine all", nullptr, there}, "Halve the knot spans: the motion stays, and can become finer."))
+    ui.act("refine");
+  if (entry(ui, {"Back to the declared start", nullptr, there}, "Begin again from the sketch of the scene."))
+    ui.act(reset_words().line);
   ImGui::EndMenu();
 }
 
 void draw_view_menu(Ui& ui) {
-  if (!begin_menu(ui, "View")) return;
+  if (!begin_menu(ui, "View", "From where the figure is seen, and what is shown with it.")) return;
   SceneMemory& m = ui.memory.scene;
-  if (ImGui::MenuItem("Front", "1")) turn(ui, View::front);
-  if (ImGui::MenuItem("Side", "2")) turn(ui, View::side);
-  if (ImGui::MenuItem("Above", "3")) turn(ui, View::top);
-  if (ImGui::MenuItem("Free", "4")) turn(ui, View::free);
-  if (ImGui::MenuItem("Frame the figure", "F")) m.framed = false;
-  ImGui::MenuItem("Orthographic", nullptr, &m.camera.orthographic);
+  const State& s = ui.state;
+  if (entry(ui, {"Front", "1"}, "Look along the z axis.")) turn(ui, View::front);
+  if (entry(ui, {"Side", "2"}, "Look along the x axis.")) turn(ui, View::side);
+  if (entry(ui, {"Above", "3"}, "Look down.")) turn(ui, View::top);
+  if (entry(ui, {"Free", "4"}, "Look from the front, the right and above.")) turn(ui, View::free);
+  if (entry(ui, {"Frame the figure", "F"}, "Bring all of the motion into view.")) m.framed = false;
+  const auto toggle = [&](const char* label, const char* keys, bool& on, const char* help) {
+    if (entry(ui, {label, keys, true, on}, help)) on = !on;
+  };
+  toggle("Orthographic", nullptr, m.camera.orthographic, "What is far looks as large as what is near.");
   ImGui::Separator();
-  if (ImGui::MenuItem("Pin a ghost here", "G", is_pinned(ui.state), ui.state.curves != nullptr))
-    ui.emit(Pin{ui.state.playback.time, !is_pinned(ui.state)});
-  ui.here("menu pin");
-  ImGui::MenuItem("Ghosts along the motion", "Shift+G", &m.ghosts);
-  ImGui::MenuItem("Trails", "T", &m.trails);
-  ImGui::MenuItem("Forces", nullptr, &m.forces);
-  ImGui::MenuItem("Marks of constraints", nullptr, &m.marks);
+  if (entry(ui, {"Pin a ghost here", "G", s.curves != nullptr, is_pinned(s)},
+            "Show the pose at this time, pale, whatever the time; its mark in the ruler takes it away."))
+    ui.emit(Pin{s.playback.time, !is_pinned(s)});
+  toggle("Ghosts along the motion", "Shift+G", m.ghosts, "Five poses from the start to the end, pale.");
+  toggle("Trails", "T", m.trails, "The ways of hands, and of the points chosen in the tab Freedom.");
+  toggle("Forces", nullptr, m.forces, "Torques and forces of the joints, as arrows.");
+  toggle("Marks of constraints", nullptr, m.marks, "Where constraints hold and where they do not.");
   ImGui::Separator();
-  if (ImGui::MenuItem("Dark", nullptr, ui.state.dark)) ui.emit(SetTheme{!ui.state.dark});
-  ui.here("menu dark");
+  if (entry(ui, {"Dark", nullptr, true, s.dark}, "Dark or light.")) ui.emit(SetTheme{!s.dark});
   ImGui::EndMenu();
 }
 
@@ -133,8 +161,8 @@ void draw_menu(Ui& ui) {
   draw_file_menu(ui);
   draw_edit_menu(ui);
   draw_view_menu(ui);
-  if (begin_menu(ui, "Help")) {
-    if (ImGui::MenuItem("Shortcuts", "F1")) ui.memory.shortcuts = true;
+  if (begin_menu(ui, "Help", "Keys and the language.")) {
+    if (entry(ui, {"Shortcuts", "F1"}, "The list of keys.")) ui.memory.shortcuts = true;
     ImGui::Separator();
     ImGui::TextDisabled("The language's manual: symbolic/LANGUAGE.md");
     ImGui::EndMenu();
@@ -161,8 +189,7 @@ void draw_toolbar(Ui& ui) {
     const bool pressed = ImGui::Button(label, {ui.scaled(68), 0});
     if (strong) ImGui::PopStyleColor();
     if (!possible) ImGui::EndDisabled();
-    ui.here(name);
-    ui.help(help);
+    ui.control(name, help);
     ImGui::SameLine(0, ui.scaled(6));
     return pressed && possible;
   };
@@ -220,7 +247,7 @@ void draw_status(Ui& ui) {
                                          : d.condition == Daemon::Condition::lost ? "lost"
                                                                                   : "being started",
                                          d.why.empty() ? "" : " ", d.why);
-    ui.help(text.c_str());
+    ui.control(std::string("daemon ") + name, text);
     ImGui::SameLine(0, ui.scaled(14));
   };
   daemon("symbolic", s.symbolic);
@@ -230,7 +257,7 @@ void draw_status(Ui& ui) {
         fmt::format("Making {}: {}", fs::path(s.film->first).filename().string(), s.film->second).c_str());
     ImGui::SameLine();
     if (ImGui::SmallButton("Stop##film")) ui.emit(DropFilm{});
-    ui.here("stop film");
+    ui.control("stop film", "Give the film up; pictures that are finished stay.");
     ImGui::SameLine(0, ui.scaled(14));
   }
   bool told = false;
@@ -239,9 +266,8 @@ void draw_status(Ui& ui) {
     if (notice.place != Notice::Place::status) continue;
     told = true;
     ImGui::TextColored(ui.colour(notice.severity), "%s", notice.text.c_str());
-    ui.here("notice");
     if (ImGui::IsItemClicked()) ui.emit(Dismiss{static_cast<int>(i)});
-    ui.help((notice.text + "\nClick to put this away.").c_str());
+    ui.control("notice", notice.text + "\nClick to put this away.");
   }
   if (told || !s.motion || (!s.running && s.motion->iterations == 0)) return;
   // The first sentence; the rest is in the panel, and in the help.

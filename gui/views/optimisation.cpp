@@ -27,18 +27,18 @@ void draw_choices(Ui& ui) {
   };
   row("Method");
   ImGui::Combo("##method", &m.method, methods.data(), static_cast<int>(methods.size()));
-  ui.here("method");
-  ui.help("How an iteration is made. Newton converges in the fewest; the papers' own methods are there to compare.");
+  ui.control("method",
+             "How an iteration is made. Newton converges in the fewest; the papers' own methods are there to compare.");
   row("Tolerance");
   ImGui::InputDouble("##tolerance", &m.tolerance, 0, 0, "%.0e");
   m.tolerance = std::clamp(m.tolerance, 1e-15, 1.0);
-  ui.help(
-      "Converged: every hard constraint holds to this much in its own units, and the gradient of the Lagrangian "
-      "vanishes to it.");
+  ui.control("tolerance",
+             "Converged: every hard constraint holds to this much in its own units, and the gradient of the Lagrangian "
+             "vanishes to it.");
   row("Starts");
   ImGui::InputInt("##starts", &m.starts, 0);
   m.starts = std::clamp(m.starts, 1, 1000);
-  ui.help("Solve from so many shaken starts and keep the best motion.");
+  ui.control("starts", "Solve from so many shaken starts and keep the best motion.");
   ImGui::EndTable();
 }
 
@@ -49,8 +49,7 @@ void draw_convergence(Ui& ui) {
   const float width = ImGui::GetContentRegionAvail().x, height = ui.scaled(120);
   const float margin = ui.scaled(44), below = ImGui::GetFontSize() + 6;
   ImGui::Dummy({width, height});
-  ui.here("convergence");
-  ui.help("The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
+  ui.control("convergence", "The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
   PlotFrame frame{{at.x + margin, at.y + 4}, {width - margin - 6, height - below - 4}, 0, 10, -9, 1};
   if (!record.empty()) {
     frame.left = record.front().iteration;

@@ -38,8 +38,7 @@ void draw_pins(Ui& ui, const TimeAxis& axis, float y) {
     const std::string name = fmt::format("pin {:g}", pin);
     ImGui::SetCursorScreenPos({x - 1.5F * r, y - 1.5F * r});
     if (ImGui::InvisibleButton(name.c_str(), {3 * r, 3 * r})) ui.emit(Pin{pin, false});
-    ui.here(name);
-    ui.help(fmt::format("The pose at {} s is shown, pale. Click to take the ghost away.", shown(pin)).c_str());
+    ui.control(name, fmt::format("The pose at {} s is shown, pale. Click to take the ghost away.", shown(pin)));
     const ImU32 colour = packed(ImGui::IsItemHovered() ? ui.colours().text : ui.colours().faint);
     list.AddCircleFilled({x, y - r * 0.6F}, r * 0.7F, colour);
     list.AddRectFilled({x - r, y + r * 0.2F}, {x + r, y + r * 1.2F}, colour, r * 0.7F, ImDrawFlags_RoundCornersTop);
@@ -61,9 +60,9 @@ void draw_key_menu(Ui& ui, const KeyMark& mark, const Motion& motion, const std:
   if (!ImGui::BeginPopupContextItem(("menu " + name).c_str(), ImGuiPopupFlags_MouseButtonRight)) return;
   const auto back = without(mark, motion);
   if (ImGui::MenuItem("Take it away", nullptr, false, !back.empty())) ui.act(key_words(mark.time, back).line, place);
-  ui.here("take key away");
-  ui.help(back.empty() ? "The motion was shaped anew since: nothing of it can be taken away. Undo leads before it."
-                       : "The motion goes back to where it would be without this key.");
+  ui.control("take key away",
+             back.empty() ? "The motion was shaped anew since: nothing of it can be taken away. Undo leads before it."
+                          : "The motion goes back to where it would be without this key.");
   ImGui::EndPopup();
 }
 
@@ -103,9 +102,8 @@ void draw_keys(Ui& ui, const TimeAxis& axis, float y) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::SetCursorScreenPos({axis.x(mark.time) - 1.5F * r, y - 1.5F * r});
     ImGui::InvisibleButton(name.c_str(), {3 * r, 3 * r});
-    ui.here(name);
+    ui.control(name, told(mark));
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
-    if (!ImGui::IsItemActive()) ui.help(told(mark).c_str());
     if (hot && !mark.sketched) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     if (motion) take_drag(ui, axis, mark, *motion, static_cast<int>(i));
     if (motion && !mark.sketched) draw_key_menu(ui, mark, *motion, name);
@@ -138,8 +136,7 @@ void draw_ruler(Ui& ui, const TimeAxis& axis) {
   draw_pins(ui, axis, at.y + ui.scaled(16));
   ImGui::SetCursorScreenPos({axis.left - 6, at.y});
   ImGui::InvisibleButton("ruler", {axis.right - axis.left + 12, height});
-  ui.here("ruler");
-  ui.help("Click or drag to move through time. The wheel zooms, dragging with the right button moves.");
+  ui.control("ruler", "Click or drag to move through time. The wheel zooms, dragging with the right button moves.");
   if (ImGui::IsItemActive()) move_to(ui, axis.time(ImGui::GetIO().MousePos.x));
   ImGui::SetCursorScreenPos({at.x, at.y + height});
 }

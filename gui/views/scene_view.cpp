@@ -248,7 +248,7 @@ void draw_nothing(Ui& ui, const glm::vec2& size) {
   if (open) return;
   ImGui::SetCursorPos({size.x / 2 - ui.scaled(60), size.y / 2 + ui.scaled(8)});
   if (ImGui::Button("Examples...", {ui.scaled(120), 0})) ui.memory.welcome = true;
-  ui.here("examples");
+  ui.control("examples", "Scenes that come with the program, to try and to change.");
 }
 
 }  // namespace

@@ -111,8 +111,7 @@ void draw_log(Ui& ui) {
       ui.emit(GoTo{static_cast<int>(i)});
     ImGui::PopFont();
     ImGui::PopStyleColor();
-    ui.here(fmt::format("entry {}", i));
-    ui.help(future ? "Undone: click to redo up to here." : line.c_str());
+    ui.control(fmt::format("entry {}", i), future ? "Undone: click to redo up to here." : line);
     if (here && i + 1 == s.log.size()) ImGui::SetScrollHereY(1);
   }
   for (const std::string& line : s.script) {
@@ -141,14 +140,14 @@ void draw_console(Ui& ui) {
   ImGui::EndChild();
   ImGui::SetNextItemWidth(-1);
   bool asked = ImGui::InputTextWithHint("##expression", "expression", &m.console, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.here("console");
+  ui.control("console", "An expression over the names of the scene; Enter asks.");
   ImGui::SetNextItemWidth(-ui.scaled(60));
   asked |= ImGui::InputTextWithHint("##by", "differentiate by (optional)", &m.console_by,
                                     ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.here("console by");
+  ui.control("console by", "A degree of freedom, a parameter or a constant: its partial derivative is asked for.");
   ImGui::SameLine();
   asked |= ImGui::Button("Ask", {-1, 0});
-  ui.here("ask");
+  ui.control("ask", "Print it, evaluate it, and count its operations.");
   ImGui::PopFont();
   ui.notices(Notice::Place::console);
   if (!asked || m.console.empty()) return;

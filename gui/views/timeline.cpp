@@ -21,8 +21,7 @@ enum class Icon { first, back, play, pause, forward, last };
 // A button with a drawn sign: fonts do not agree on these.
 bool draw_icon(Ui& ui, Icon icon, const char* name, const char* help) {
   const bool pressed = ImGui::Button((std::string("##") + name).c_str(), {ui.scaled(32), 0});
-  ui.here(name);
-  ui.help(help);
+  ui.control(name, help);
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const ImVec2 c{(low.x + high.x) / 2, (low.y + high.y) / 2};
   const float r = ui.scaled(5), w = ui.scaled(2.5F);
@@ -54,7 +53,7 @@ void draw_transport(Ui& ui, double start, double end) {
   if (draw_icon(ui, Icon::last, "to end", "To the end (End)")) move_to(ui, end);
   Playback changed = p;
   if (ImGui::Checkbox("Loop", &changed.loop)) ui.emit(SetPlayback{changed});
-  ui.here("loop");
+  ui.control("loop", "Begin again at the end.");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ui.scaled(76));
   const char* speeds[] = {"1/8 x", "1/4 x", "1/2 x", "1 x", "2 x"};
@@ -63,7 +62,7 @@ void draw_transport(Ui& ui, double start, double end) {
     changed.speed = std::exp2(which - 3);
     ui.emit(SetPlayback{changed});
   }
-  ui.help("How fast it plays.");
+  ui.control("speed", "How fast it plays.");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(ui.scaled(64));
   int rate = static_cast<int>(p.rate);
@@ -71,7 +70,7 @@ void draw_transport(Ui& ui, double start, double end) {
     changed.rate = rate;
     ui.emit(SetPlayback{changed});
   }
-  ui.help("Frames a second: what the arrow keys step by, and a film is made with.");
+  ui.control("rate", "Frames a second: what the arrow keys step by, and a film is made with.");
   ImGui::SameLine(0, ui.scaled(20));
   ImGui::PushFont(ui.memory.fonts.strong);
   ImGui::Text("%.3f s", p.time);
@@ -112,7 +111,7 @@ std::optional<std::pair<double, double>> draw_bar(Ui& ui, const TimeAxis& axis, 
     ImGui::PushID(end);
     ImGui::InvisibleButton(name.c_str(), {10, height + 2});
     ImGui::PopID();
-    ui.here(name + (end == 0 ? " from" : " to"));
+    ui.control(name + (end == 0 ? " from" : " to"), "Drag this end; Alt drags between hundredths of a second.");
     const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (hot) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     list.AddRectFilled({x - 2, at.y + 1}, {x + 2, at.y + height + 1}, packed(hot ? ui.colours().text : colour), 2);

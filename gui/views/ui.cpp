@@ -49,6 +49,12 @@ const ImVec4& Ui::colour(Severity severity) const {
                                          : colours().faint;
 }
 
+void Ui::control(const std::string& name, const std::string& text) {
+  here(name);
+  memory.helped.insert(name);
+  help(text.c_str());
+}
+
 void Ui::here(const std::string& name) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   memory.places[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
@@ -77,9 +83,8 @@ bool Ui::notices(Notice::Place place, const std::string& about) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour(notice.severity));
     ImGui::TextWrapped("%s", notice.text.c_str());
     ImGui::PopStyleColor();
-    here("told " + about);
     if (ImGui::IsItemClicked()) emit(Dismiss{static_cast<int>(i)});
-    help("Click to put this message away.");
+    control("told " + about, "Click to put this message away.");
     fresh |= memory.told.insert(notice.text).second;
   }
   return fresh;

@@ -64,6 +64,7 @@ struct KeyMemory {
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
+  bool as_seen = true;  // films: by the window's camera
 };
 
 // What comes after the scene that is open.
@@ -71,6 +72,8 @@ struct Leaving {
   enum class To { quit, file, example, fresh } to = To::quit;
   std::string file{};
 };
+
+inline constexpr int scene_tab = 1;  // of the tools: the scene's text
 
 struct Memory {
   Fonts fonts;
@@ -85,6 +88,7 @@ struct Memory {
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
   std::shared_ptr<const Scene> mistaken;  // whose text has been brought forward
+  std::set<std::string> helped;           // names of this frame's controls that have help
   std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
   SceneMemory scene;
   CurvesMemory curves;
@@ -124,7 +128,10 @@ struct Ui {
   const ImVec4& colour(Severity severity) const;
   float scaled(float pixels) const { return pixels * memory.scale; }
 
-  // Remembers where the last item is, so that it can be found by name.
+  // The last item is a control of this name, and helped with: what a person can press, turn or write into.  Tests find
+  // it by the name, and know by it that there is help.
+  void control(const std::string& name, const std::string& text);
+  // Remembers where the last item is, so that it can be found by name: what is only looked at.
   void here(const std::string& name);
   // Help that appears over the last item.
   void help(const char* text) const;

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "common/diagnostic.h"
 #include "gui/render/camera.h"
 
 namespace spacetime::gui {
@@ -115,6 +116,20 @@ TEST(Camera, AFramedBoxFillsThePictureButForTheMargin) {
       EXPECT_NEAR(high.y, -low.y, 5e-3) << which;
     }
   }
+}
+
+TEST(RenderCamera, IsReadBackFromItsText) {
+  for (const bool orthographic : {false, true}) {
+    Camera camera{{0.5F, -1.25F, 3}, 7.5F, 1.2F, -0.3F, 0.6F, orthographic};
+    const Camera read = read_camera(camera_text(camera));
+    EXPECT_NEAR(read.yaw, camera.yaw, 1e-6);
+    EXPECT_NEAR(read.pitch, camera.pitch, 1e-6);
+    EXPECT_EQ(read.target, camera.target);
+    EXPECT_EQ(read.distance, camera.distance);
+    EXPECT_EQ(read.orthographic, orthographic);
+  }
+  for (const char* wrong : {"", "1,2,3", "0,0,0,0,0,0", "0,0,0,0,91,1", "0,0,0,0,0,1,flat", "0,nan,0,0,0,1", "a"})
+    EXPECT_THROW(read_camera(wrong), InputError) << wrong;
 }
 
 }  // namespace

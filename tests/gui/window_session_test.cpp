@@ -56,7 +56,7 @@ TEST(Window, ANewSceneCanBeRunChangedAndIsNotLeftUnasked) {
   EXPECT_TRUE(unsaved(d.state()));
   d.click("menu File");
   d.save_picture("new-3-menu.png");
-  d.click("menu new");
+  d.click("menu New scene");
   d.click("guard discard");
   d.settle();
   EXPECT_FALSE(unsaved(d.state()));
@@ -91,7 +91,7 @@ TEST(Window, SessionsLeftBehindAreInTheFileMenu) {
   d.click("menu File");
   d.click("menu Not saved when it ended");
   d.save_picture("left-menu.png");
-  d.click("menu recover a scene without a file");
+  d.click("menu a scene without a file");
   d.until([](const gui::State& s) { return s.present == 1; }, "the session");
   EXPECT_TRUE(d.state().left.empty());
 }

@@ -207,12 +207,31 @@ TEST(Window, MakesAStripOfTheMotion) {
   d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
   d.click("run");
   d.settle();
-  d.screen().memory().files.dialog = gui::FilesMemory::Dialog::film;
-  d.frame(3);
-  d.save_picture("film-dialog.png");
-  d.hub().post(gui::Film{here + "/strip.png", 12});
+  // Another scene that is opened meanwhile does not disturb it.
+  d.hub().post(gui::Film{here + "/strip.png", 12, "0,0.5,0,20,15,6"});
+  d.hub().post(gui::OpenText{read_text(here + "/throw.scene")});
+  d.frame(2);
+  EXPECT_TRUE(d.state().film);
   d.until([](const gui::State& s) { return !s.film && !s.notices.empty(); }, "the strip");
   EXPECT_TRUE(fs::exists(here + "/strip.png")) << told(d.state());
+  d.settle();
+  d.screen().memory().files.dialog = gui::FilesMemory::Dialog::film;
+  d.frame(3);
+  d.screen().memory().files.folder = here;
+  d.frame(2);
+  d.click("file strip.png");  // it is there: the dialog says so
+  EXPECT_EQ(d.screen().memory().files.name, "strip.png");
+  d.save_picture("film-dialog.png");
+  const auto before = fs::last_write_time(here + "/strip.png");
+  d.click("make film");
+  d.until([](const gui::State& s) { return !s.film; }, "the strip again");
+  EXPECT_NE(fs::last_write_time(here + "/strip.png"), before) << told(d.state());
+  // One that is stopped says no more.
+  d.hub().post(gui::Film{here + "/frames/%04d.png", 0});
+  d.frame(2);
+  d.hub().post(gui::DropFilm{});
+  d.frame(2);
+  EXPECT_FALSE(d.state().film);
   d.hub().post(gui::Film{"/proc/nothing/film.mp4", 0});
   d.until([](const gui::State& s) { return !s.film && told(s).find("could not be made") != std::string::npos; },
           "a refusal");
