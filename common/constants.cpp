@@ -1,5 +1,6 @@
 #include "common/constants.h"
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,10 @@ void require(bool condition, const std::string& message) {
   if (!condition) throw InputError(message);
 }
 
-std::string number(double value) { return std::to_string(value); }
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6).ptr};
+}
 
 }  // namespace
 

@@ -1,6 +1,9 @@
 #include "optimizer/server.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,6 +14,7 @@
 #include "optimizer/session.h"
 #include "protocol/action_json.h"
 #include "protocol/check.h"
+#include "protocol/declared.h"
 #include "protocol/memory.h"
 #include "protocol/motion_json.h"
 #include "protocol/openrpc.h"
@@ -90,10 +94,41 @@ struct Snapshot {
 struct Run {
   Solve rest;     // what is left of it, an `iterate` being a solve with that many iterations
   int since = 0;  // the iteration at which its last edit, or itself, began
+  int begun = 0;  // ... itself, as the motion counts now
   bool edited = false;
 
   bool many() const { return rest.starts > 1; }  // its starts go on at their own pace
 };
+
+// A degree of freedom or its derivative, by the name that the language has for it: x, x' or x''.
+struct Derivative {
+  std::string name;
+  std::size_t place;  // among the problem's
+  int order;
+};
+
+Derivative derivative_named(const Node& name, const Problem& problem) {
+  std::string_view bare = name.string();
+  int order = 0;
+  for (; order < 2 && bare.ends_with('\''); ++order) bare.remove_suffix(1);
+  const auto found = std::ranges::find(problem.dofs, bare, &Dof::name);
+  if (found == problem.dofs.end()) {
+    auto names = names_of(problem.plots);
+    for (const Body& body : problem.bodies) names.push_back(body.name);
+    for (const Dof& dof : problem.dofs) names.push_back(dof.name);
+    name.refuse(there_is_no("plotted expression, body or degree of freedom", name.string(), names));
+  }
+  return {name.string(), static_cast<std::size_t>(found - problem.dofs.begin()), order};
+}
+
+// An action whose parameters are in order, but which cannot be done here.
+Error refused(const Action& action, const std::string& why) {
+  if (const auto* set = std::get_if<SetConstant>(&action); set && set->value.program.empty()) {
+    return {Code::refused, fmt::format("\"{}\" cannot be {:.9g}: {}", set->constant, set->value.number, why),
+            protocol::path_data("/action/value")};
+  }
+  return {Code::refused, why, protocol::path_data("/action")};
+}
 
 PlacedAction placed(const Solve& solve) {
   // An `iterate` is a solve to the usual tolerance.
@@ -108,7 +143,7 @@ class Peer {
   explicit Peer(const protocol::Allowance& allowance) : allowance_(allowance) {}
 
   void load(const Node& params, Writer& result) {
-    params.object({"problem"});
+    params.object({"problem"}, {"revision"});
     Problem problem = checked_problem(params["problem"]);
     const double unknowns = count(problem);
     session_ = std::make_unique<Session>(std::move(problem));
@@ -117,7 +152,7 @@ class Peer {
   }
 
   void update(const Node& params, Writer& result) {
-    params.object({"problem"});
+    params.object({"problem"}, {"revision"});
     Session& session = present();
     Problem problem = checked_problem(params["problem"]);
     session.update(std::move(problem));
@@ -125,7 +160,7 @@ class Peer {
   }
 
   void act(const Node& params, Writer& result, Call& call) {
-    params.object({"action"});
+    params.object({"action"}, {"revision", "progress"});
     Session& session = present();
     const Node node = params["action"];
     const PlacedAction asked = action_from(node);
@@ -133,16 +168,18 @@ class Peer {
       throw DocumentError("params", "/action" + fault->path, fault->message);
     }
     if (const auto* refine = std::get_if<Refine>(&asked.action)) require_room(most_of(*refine));
-    if (is_edit(asked.action)) {
-      session.perform(asked.action);
-      return write_edit(result, {asked});
+    const bool edit = is_edit(asked.action);
+    SPACETIME_ASSERT(edit || !run_);
+    try {
+      edit ? session.perform(asked.action) : run(asked.action, result, call);
+    } catch (const InputError& error) {
+      throw refused(asked.action, error.what());
     }
-    SPACETIME_ASSERT(!run_);
-    run(asked.action, result, call);
+    if (edit) write_edit(result, {asked});
   }
 
   void get(const Node& params, Writer& result) {
-    params.object({}, {"checkpoint"});
+    params.object({}, {"checkpoint", "revision"});
     Session& session = present();
     const auto checkpoint = params.find("checkpoint");
     if (run_) session.stop("Going on: this is iteration " + std::to_string(session.iterations()) + ".");
@@ -157,7 +194,7 @@ class Peer {
   }
 
   void set(const Node& params, Writer& result) {
-    params.object({"motion"});
+    params.object({"motion"}, {"revision"});
     Session& session = present();
     const Motion motion = motion_from(params["motion"]);
     if (const auto fault = validate(motion)) throw DocumentError("params", "/motion" + fault->path, fault->message);
@@ -174,33 +211,46 @@ class Peer {
       throw DocumentError("params", "/motion" + error.path(), error.message());
     }
     write_edit(result, {}, before);
-    if (run_) run_->since = session.iterations();  // what comes is counted on from the motion's own number
+    if (!run_) return;
+    run_->since = session.iterations();  // what comes is counted on from the motion's own number
+    run_->begun += session.iterations() - before;
   }
 
   void sample(const Node& params, Writer& result) {
-    params.object({"times"}, {"expressions"});
+    params.object({"times"}, {"expressions", "revision"});
     Session& session = present();
     const auto times = params["times"].numbers();
     const Problem& problem = session.problem();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      if (times[i] < problem.start || times[i] > problem.end) params["times"][i].refuse("outside the problem's time");
+      if (times[i] < problem.start || times[i] > problem.end) {
+        params["times"][i].refuse(fmt::format("{:.9g} is outside the problem's time, {:.9g} to {:.9g}", times[i],
+                                              problem.start, problem.end));
+      }
     }
     std::size_t each = 0;
     for (const Plot& plot : problem.plots) each += plot.outputs.size();
     each += 12 * problem.bodies.size();
-    const double numbers = static_cast<double>(times.size()) * static_cast<double>(each);
-    if (numbers > allowance_.samples) throw beyond("samples", allowance_, numbers);
     std::optional<std::vector<std::string>> wanted;
+    std::vector<Derivative> dofs;
     if (const auto names = params.find("expressions")) {
       wanted = names->each([&](const Node& name) {
         const auto is_it = [&](const auto& thing) { return thing.name == name.string(); };
         if (std::ranges::none_of(problem.plots, is_it) && std::ranges::none_of(problem.bodies, is_it)) {
-          name.refuse("there is no expression or body of that name");
+          dofs.push_back(derivative_named(name, problem));
         }
         return name.string();
       });
     }
-    const Samples samples = session.samples(times);
+    const double numbers = static_cast<double>(times.size()) * static_cast<double>(each + dofs.size());
+    if (numbers > allowance_.samples) throw beyond("samples", allowance_, numbers);
+    Samples samples = session.samples(times);
+    const auto curves = session.trajectories();
+    for (const Derivative& dof : dofs) {
+      std::vector<std::vector<double>> rows;
+      const Trajectory& curve = curves[dof.place];
+      for (const double t : times) rows.push_back({value(curve.basis, curve.coefficients, t, dof.order)});
+      samples.values.insert_or_assign(dof.name, std::move(rows));
+    }
     const auto write_rows = [&](std::string_view member, const auto& tables) {
       result.key(member);
       result.object([&] {
@@ -313,21 +363,28 @@ class Peer {
     Run run;
     if (const auto* solve = std::get_if<Solve>(&action)) run.rest = *solve;
     if (const auto* iterate = std::get_if<Iterate>(&action)) run.rest.iterations = iterate->iterations;
-    run.since = session.iterations();
+    run.since = run.begun = session.iterations();
     run_ = run;
+    const auto begun = std::chrono::steady_clock::now();
     struct Over {
       std::optional<Run>& run;
       ~Over() { run.reset(); }
     } over{run_};
     session.perform(action, watch);
 
-    const Outcome outcome = session.outcome();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    const int made = session.iterations() - run_->begun;
+    Outcome outcome = session.outcome();
+    if (outcome.status == Status::stopped && made != session.iterations()) {
+      outcome.message += fmt::format(" This run made {} iteration{}.", made, made == 1 ? "" : "s");
+    }
     result.member("status", name_of(outcome.status));
     result.member("message", outcome.message);
+    result.member("iterations", made);
     const IterationRecord record = session.record();
     write_measure(result, "objective", record.objective);
     write_measure(result, "violation", record.violation);
-    result.member("seconds", record.seconds);
+    result.member("seconds", took.count());
     // A run that was stopped amounts to its iterations; one that ended by itself to what it was asked, less what had
     // been done before its last edit.  Many starts that were stopped are not logged: how far each had come is chance;
     // nor those that an edit ended, since nothing came of them.

@@ -123,7 +123,7 @@ class Session {
   void resume(const Motion& motion);
   void judge(double tolerance);
   bool reached(double tolerance) const;
-  std::string count() const;
+  std::string nth_iteration() const;  // "iteration 12", the last
   std::string standing() const;
   bool foreign() const { return other_.index() != 0; }
   std::vector<double> unknowns() const;

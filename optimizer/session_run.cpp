@@ -126,14 +126,14 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   const std::string found =
       fmt::format("{} converged, to {} distinct minim{}.", converged, groups.size(), groups.size() == 1 ? "um" : "a");
   if (stopped) {
-    stop(fmt::format("Interrupted after {}, when of {} starts {} had ended and {} The best so far is kept. ", count(),
-                     starts, ended, found) +
+    stop(fmt::format("Interrupted at {}, when of {} starts {} had ended and {} The best so far is kept. ",
+                     nth_iteration(), starts, ended, found) +
          (result == StepResult::converged ? "It has converged." + standing_elsewhere(tolerance) : standing()));
     if (watch.progress) watch.progress(record());
     return;
   }
   if (result == StepResult::stepped) {
-    stop("Stopped after " + count() + ". " + standing());
+    stop("Stopped at " + nth_iteration() + ". " + standing());
   } else {
     outcome_ = outcome_of(result, now_->t(), now_->layout, state_, tolerance);
     outcome_.message += standing_elsewhere(tolerance);
@@ -151,7 +151,7 @@ void Session::iterate_by(const Make& make, int limit, double tolerance, const Wa
       try {
         method = std::make_unique<decltype(make())>(make());
       } catch (const InputError& error) {
-        return Outcome{Status::stopped, fmt::format("Stopped after {}: {}.", count(), error.what())};
+        return Outcome{Status::stopped, fmt::format("Stopped at {}: {}.", nth_iteration(), error.what())};
       }
     }
     Seconds before;
@@ -192,12 +192,12 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
   for (int k = 0;; ++k) {
     const bool last = k >= limit;
     if (!last && watch.go_on && !watch.go_on()) {
-      return stop("Interrupted after " + count() + ". " + standing());
+      return stop("Interrupted at " + nth_iteration() + ". " + standing());
     }
     const bool afresh = restarts_ != restarts;
     restarts = restarts_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
-    const auto use_up = [&] { stop("Stopped after " + count() + ", as many as were allowed. " + standing()); };
+    const auto use_up = [&] { stop("Stopped at " + nth_iteration() + ": no more were allowed. " + standing()); };
     if (last && state_.condition == StepResult::stepped && !reached(tolerance)) return use_up();
     std::optional<NewtonState> here;
     if (last) here = state_;
@@ -218,8 +218,7 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
 void Session::judge(double tolerance) {
   iterate(0, tolerance, {});
   if (outcome_.status != Status::stopped) return;
-  stop((state_.iterations == 0 ? "Nothing has been iterated yet. "
-                               : "Edited since the last iteration (" + count() + " so far). ") +
+  stop((state_.iterations == 0 ? "Nothing has been iterated yet. " : "Edited since " + nth_iteration() + ". ") +
        standing() + standing_elsewhere(tolerance));
 }
 
@@ -232,9 +231,7 @@ bool Session::reached(double tolerance) const {
   return state_.measures.within(tolerance) && state_.condition == StepResult::stepped;
 }
 
-std::string Session::count() const {
-  return fmt::format("{} iteration{}", state_.iterations, state_.iterations == 1 ? "" : "s");
-}
+std::string Session::nth_iteration() const { return fmt::format("iteration {}", state_.iterations); }
 
 std::string Session::standing() const {
   return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",

@@ -1,5 +1,7 @@
 #include "optimizer/sketch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -51,7 +53,8 @@ std::map<std::string, Keys> keys_of(const Problem& problem, const Constants& con
     const std::string what = "keyframe in line " + std::to_string(keyframe.place.line);
     const double time = evaluate(problem, constants, keyframe.time, what + ": the time");
     if (time < problem.start || time > problem.end) {
-      throw InputError(what + ": the time " + std::to_string(time) + " lies outside the animation's");
+      throw InputError(fmt::format("{}: the time {:.6g} lies outside the animation's, {:.6g} to {:.6g}", what, time,
+                                   problem.start, problem.end));
     }
     for (const Key& key : keyframe.keys) {
       const double value = evaluate(problem, constants, key.value, what + ": the value of " + key.dof);

@@ -1,5 +1,7 @@
 #include "optimizer/transcription.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,8 +107,8 @@ class Transcriber {
       const double b = to ? value(*to, what + ": a time") : integral ? problem_.end : a;
       for (const double t : {a, b}) {
         if (t < problem_.start || t > problem_.end) {
-          throw InputError(what + ": the time " + std::to_string(t) + " lies outside the animation's, " +
-                           std::to_string(problem_.start) + " to " + std::to_string(problem_.end));
+          throw InputError(fmt::format("{}: the time {:.6g} lies outside the animation's, {:.6g} to {:.6g}", what, t,
+                                       problem_.start, problem_.end));
         }
       }
       if (integral) {

@@ -17,10 +17,9 @@ class Check {
   explicit Check(const Declared& declared)
       : declared_(declared), problem_(declared.problem()), constraints_(declared.constraints()) {}
 
-  // An action that is not in the list, after anything may have been refined; all statements have been declared.
+  // An action that is not in the list; all statements have been declared.
   void one(const Action& asked, const std::string& path) {
-    now_ = std::numeric_limits<std::size_t>::max();
-    refined_ = true;
+    now_ = alone;
     std::visit([&](const auto& which) { action(which, path); }, asked);
   }
 
@@ -33,11 +32,17 @@ class Check {
   }
 
  private:
+  static constexpr auto alone = std::numeric_limits<std::size_t>::max();
+
   void action(const Solve& solve, const std::string& path) const {
     if (!(solve.tolerance > 0) || !std::isfinite(solve.tolerance)) fail(path + "/tolerance", "must be positive");
     if (solve.iterations.value_or(0) < 0) fail(path + "/iterations", "must not be negative");
     if (solve.starts < 1 || solve.starts > limits::starts) {
       fail(path + "/starts", "must be from 1 to " + std::to_string(limits::starts));
+    }
+    // In a problem's list it is refused when its turn comes, by who knows what the methods can do.
+    if (now_ == alone && solve.starts > 1 && solve.method != Solve::Method::newton) {
+      fail(path + "/method", "only the method \"newton\" solves from many starts");
     }
     if (solve.linear_cg && solve.method != Solve::Method::sqp92) {
       fail(path + "/linear_cg", "belongs to the method \"sqp92\" alone");
@@ -99,7 +104,9 @@ class Check {
 
   void action(const SetConstant& set, const std::string& path) const {
     const auto found = declared_.constants().find(set.constant);
-    if (found == declared_.constants().end()) fail(path + "/constant", "there is no constant " + quoted(set.constant));
+    if (found == declared_.constants().end()) {
+      fail(path + "/constant", there_is_no("constant", set.constant, names_of(problem_.constants)));
+    }
     if (const auto& frozen = problem_.constants[found->second].frozen) {
       fail(path + "/constant",
            quoted(set.constant) + " cannot be set: " +
@@ -161,13 +168,13 @@ class Check {
     declared_.keys(pull.keys, path);
   }
 
-  // Of what a refinement may have changed only the optimizer knows the size.
+  // Of what an earlier refinement may have changed only the optimizer knows the size.
   void action(const Control& control, const std::string& path) const {
     declared_.dof(control.dof, path + "/dof");
     const int size = problem_.dofs[declared_.dofs().at(control.dof)].basis.size();
     if (control.index < 0 || (!refined_ && control.index >= size)) {
-      fail(path + "/index", "there are " + std::to_string(size) + " coefficients, numbered from 0; there is no " +
-                                std::to_string(control.index));
+      fail(path + "/index", quoted(control.dof) + " has " + std::to_string(size) +
+                                " coefficients, numbered from 0; there is no " + std::to_string(control.index));
     }
     declared_.quantity(control.value, path + "/value");
   }
@@ -188,7 +195,9 @@ class Check {
     }
     const auto found = declared_.terms().find(name);
     if (found == declared_.terms().end()) {
-      fail(path + "/name", "there is no constraint or term of the objective " + quoted(name));
+      auto names = names_of(problem_.constraints);
+      for (const Term& term : problem_.objective) names.push_back(term.name);
+      fail(path + "/name", there_is_no("constraint or term of the objective", name, names));
     }
     declared_by_now(problem_.objective[found->second].since);
     return Kind::term;

@@ -15,12 +15,6 @@ constexpr std::size_t short_message = std::size_t{1} << 16;
 
 constexpr std::string_view cancel_method = "$/cancelRequest";
 
-std::string path_data(const std::string& path) {
-  Writer to(false);
-  to.object([&] { to.member("path", path); });
-  return to.take();
-}
-
 Error before_its_turn() { return {Code::cancelled, "cancelled before its turn came"}; }
 
 Error error_of(const Frame& frame, const Allowance& allowance) {
@@ -249,6 +243,7 @@ Request Conversation::take(Place place) {
 void Conversation::serve(Request request, Work* running) {
   try {
     if (request.method == "rpc.discover") {
+      Node(request.params, "params").object({});
       if (request.id) outlet_.send(answer(request.id, service_.description));
       return;
     }
@@ -301,6 +296,7 @@ void Conversation::perform(Request& request, Writer& result, Work& work) {
   if (stage_ == Stage::fresh) throw Error(Code::not_initialised, "send \"initialize\" first");
   if (stage_ == Stage::ending) throw Error(Code::ending, "after \"shutdown\" there is only \"exit\"");
   if (request.method == "shutdown") {
+    Node(request.params, "params").object({});
     stage_ = Stage::ending;
     return;
   }
@@ -313,8 +309,6 @@ void Conversation::perform(Request& request, Writer& result, Work& work) {
                                    std::to_string(*newest_));
     }
   }
-  request.params.erase("revision");
-  request.params.erase("progress");
   method->perform(Node(request.params, "params"), result, work);
 }
 

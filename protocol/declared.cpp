@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/nearest.h"
 #include "protocol/limits.h"
 #include "protocol/path.h"
 
@@ -33,6 +34,16 @@ void check_name(std::string_view name, const std::string& path, Names& names) {
 }
 
 std::string quoted(std::string_view name) { return std::string("\"").append(name).append("\""); }
+
+std::string there_is_no(std::string_view what, std::string_view name, std::span<const std::string> present) {
+  constexpr std::size_t most = 8;  // names that a sentence lists
+  std::string others = present.empty() ? "the problem has none" : "there is ";
+  for (std::size_t i = 0; i < std::min(present.size(), most); ++i) {
+    others += (i == 0 ? "" : i + 1 == present.size() ? " and " : ", ") + quoted(present[i]);
+  }
+  if (present.size() > most) others += " and " + std::to_string(present.size() - most) + " more";
+  return "there is no " + std::string(what) + " " + quoted(name) + suggestion(name, present, others, '"');
+}
 
 bool reversed(const Quantity& lower, const Quantity& upper) {
   return lower.program.empty() && upper.program.empty() && lower.number > upper.number;
@@ -185,7 +196,7 @@ const Needs& Declared::program(const std::string& name, const std::string& path)
 }
 
 void Declared::dof(const std::string& name, const std::string& path) const {
-  if (!dofs_.contains(name)) fail(path, "there is no degree of freedom " + quoted(name));
+  if (!dofs_.contains(name)) fail(path, there_is_no("degree of freedom", name, names_of(problem_.dofs)));
 }
 
 void Declared::quantity(const Quantity& quantity, const std::string& path, std::size_t known) const {

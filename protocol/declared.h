@@ -17,11 +17,20 @@ namespace spacetime {
 
 [[noreturn]] void fail(std::string path, std::string message);
 std::string quoted(std::string_view name);
+// "there is no <what> "<name>"", what it may be meant for, or what there is.
+std::string there_is_no(std::string_view what, std::string_view name, std::span<const std::string> present);
 
 using Names = std::unordered_set<std::string_view>;
 void check_name(std::string_view name, const std::string& path, Names& names);  // and that it is not among them yet
 bool reversed(const Quantity& lower, const Quantity& upper);                    // plain numbers in the wrong order
 void check_place(const Place& place, const std::string& path);
+
+template <class Things>
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.emplace_back(thing.name);
+  return names;
+}
 
 // What a program needs to be given, and what it costs.
 struct Needs {

@@ -143,6 +143,12 @@ std::string amount(double number) {
   return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed).ptr};
 }
 
+std::string path_data(std::string_view path) {
+  Writer to(false);
+  to.object([&] { to.member("path", path); });
+  return to.take();
+}
+
 std::string limit_data(std::string_view name, double most) {
   Writer to(false);
   to.object([&] {

@@ -74,6 +74,9 @@ std::string request(std::string_view id, std::string_view method, std::string_vi
 // A limit, or what is beyond it: digits without an exponent.
 std::string amount(double number);
 
+// {"path": path}: the data of an error about one place of the parameters.
+std::string path_data(std::string_view path);
+
 // {"limit": name, "most": most, "option": "--limit-name"}: the data of an error about a limit.
 std::string limit_data(std::string_view name, double most);
 

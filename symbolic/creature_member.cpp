@@ -4,7 +4,7 @@
 
 #include "symbolic/creature.h"
 #include "symbolic/model.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

@@ -7,7 +7,7 @@
 #include "symbolic/expression.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

@@ -4,7 +4,7 @@
 #include "symbolic/action.h"
 #include "symbolic/eliminate.h"
 #include "symbolic/names.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"
 #include "symbolic/statement.h"

@@ -9,7 +9,7 @@
 #include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/value.h"
 

@@ -2,7 +2,7 @@
 
 #include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

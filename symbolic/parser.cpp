@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string>
 
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/parse_statement.h"
 #include "symbolic/quoted.h"
 #include "symbolic/vocabulary.h"

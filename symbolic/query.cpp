@@ -9,7 +9,7 @@
 #include "symbolic/expression.h"
 #include "symbolic/functional.h"
 #include "symbolic/names.h"
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 #include "symbolic/parse_expression.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"

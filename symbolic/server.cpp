@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "protocol/action_json.h"
@@ -52,10 +53,22 @@ void write_outline(Writer& to, const std::vector<Outlined>& outline) {
   });
 }
 
+// What is wrong with statements that should be one action; nothing where they are.
+std::optional<Diagnostic> no_single_action(std::span<const Outlined> found, int lines_before) {
+  if (found.size() == 1 && found.front().action) return std::nullopt;
+  const std::string expected = "expected an action, such as 'solve', 'iterate 10' or 'set g = 9.81', found ";
+  if (found.empty()) return Diagnostic{{lines_before + 1, 1, 1}, expected + "nothing", {}};
+  const auto other = std::ranges::find(found, false, &Outlined::action);
+  const Outlined& one = other != found.end() ? *other : found[1];
+  const Span span{one.line, one.column, static_cast<int>(one.word.size())};
+  if (other == found.end()) return Diagnostic{span, "expected one action, found another behind it", {}};
+  return Diagnostic{span, expected + "a statement with '" + one.word + "', which belongs into the scene", {}};
+}
+
 class Peer {
  public:
   void compile(const Params& params, Writer& result) {
-    params.object({"text"});
+    params.object({"text"}, {"revision"});
     const Compilation compiled = compiler_.compile(params["text"].string());
     if (compiled.problem) {
       result.key("problem");
@@ -68,15 +81,17 @@ class Peer {
 
   // The action is compiled as the last line of its scene, which has to be without mistakes itself.
   void parse(const Params& params, Writer& result) {
-    params.object({"text", "scene"});
+    params.object({"text", "scene"}, {"revision"});
     std::string text = params["scene"].string() + "\n";
     const int lines = static_cast<int>(std::ranges::count(text, '\n'));
     const Compilation before = compiler_.compile(text);
     if (!before.problem) params["scene"].refuse("the scene has mistakes: compile it first");
     text += params["text"].string();
     Compilation after = compiler_.compile(text);
-    if (after.problem && after.problem->actions.size() != before.problem->actions.size() + 1) {
-      params["text"].refuse("expected one action");
+    const auto found = std::ranges::find_if(after.outline, [&](const Outlined& one) { return one.line > lines; });
+    if (const auto mistake = no_single_action({found, after.outline.end()}, lines); mistake && after.problem) {
+      after.problem.reset();
+      after.diagnostics = {*mistake};
     }
     if (after.problem) {
       // What only the action uses is not in the optimizer's problem yet.
@@ -100,7 +115,7 @@ class Peer {
   }
 
   void query(const Params& params, Writer& result) {
-    params.object({"text", "scene"}, {"by"});
+    params.object({"text", "scene"}, {"by", "revision"});
     const auto scene = understand(params["scene"].string());
     if (!scene->diagnostics.empty()) params["scene"].refuse("the scene has mistakes: compile it first");
     const auto by = params.find("by");

@@ -188,7 +188,7 @@ TEST(Edits, TheStatusIsWhatIsTrueOfTheMotionAsItStands) {
                            "shake amplitude 0.1\n", "weight more = 3\nbound x in [-5, 5]\nset goal = 1.01\n"}) {
     const Motion motion = after(edit);
     EXPECT_EQ(motion.status, Status::stopped) << edit << motion.message;
-    EXPECT_TRUE(motion.message.starts_with("Edited since the last iteration")) << edit << motion.message;
+    EXPECT_TRUE(motion.message.starts_with("Edited since iteration ")) << edit << motion.message;
     EXPECT_EQ(after(edit + std::string("solve\n")).status, Status::converged) << edit;
   }
   const Motion sketch = run(compiled(question + "shake amplitude 0.1\n"), {});

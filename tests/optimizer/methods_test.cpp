@@ -253,7 +253,7 @@ TEST(Methods, CanBeWatchedAndInterrupted) {
     options.interrupted = [&] { return lines.size() == 3; };
     const Motion motion = run_scene(with_spans(throwing, 8) + "solve method " + method + "\n", options);
     EXPECT_EQ(motion.status, Status::stopped);
-    EXPECT_NE(motion.message.find("Interrupted after 2 iterations"), std::string::npos) << motion.message;
+    EXPECT_NE(motion.message.find("Interrupted at iteration 2"), std::string::npos) << motion.message;
     EXPECT_EQ(motion.iterations, 2);
     ASSERT_EQ(lines.size(), 3U);
     EXPECT_EQ(lines.back().iteration, 2);

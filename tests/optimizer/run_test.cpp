@@ -237,7 +237,7 @@ TEST(Run, IterateGoesSoFarAndNoFurther) {
   const Motion three = run_scene(pendulum + "iterate 3\n");
   EXPECT_EQ(three.status, Status::stopped);
   EXPECT_EQ(three.iterations, 3);
-  EXPECT_TRUE(says(three, "3 iterations")) << three.message;
+  EXPECT_TRUE(says(three, "at iteration 3: no more were allowed")) << three.message;
   // Two and one are three, and going on leads to the same end.
   EXPECT_EQ(coefficients_of(run_scene(pendulum + "iterate 2\niterate 1\n")), coefficients_of(three));
   const Motion on = run_scene(pendulum + "iterate 3\nsolve\n");
@@ -252,7 +252,7 @@ TEST(Run, LimitsAndTolerances) {
   const Motion two = run_scene(pendulum + "solve iterations 2\n");
   EXPECT_EQ(two.status, Status::stopped);
   EXPECT_EQ(two.iterations, 2);
-  EXPECT_TRUE(says(two, "as many as were allowed")) << two.message;
+  EXPECT_TRUE(says(two, "no more were allowed")) << two.message;
 
   RunOptions options;
   options.iterations = 1;
@@ -292,7 +292,7 @@ TEST(Run, AnInterruptionLeavesTheMotionReached) {
   EXPECT_EQ(motion.status, Status::stopped);
   EXPECT_EQ(motion.iterations, 3);
   EXPECT_EQ(asked, 4);  // the second action is not begun
-  EXPECT_TRUE(says(motion, "Interrupted after 3 iterations")) << motion.message;
+  EXPECT_TRUE(says(motion, "Interrupted at iteration 3")) << motion.message;
   EXPECT_EQ(coefficients_of(motion), coefficients_of(run_scene(pendulum + "iterate 3\n")));
 }
 

@@ -15,7 +15,29 @@ def document(name):
     if name not in documents:
         with open(os.path.join(DIRECTORY, name), encoding="utf-8") as file:
             documents[name] = json.load(file)
+        for part, schema in documents[name].get("components", {}).get("schemas", {}).items():
+            if schema == {"$ref": f"{part}.schema.json"}:
+                documents[name]["components"]["schemas"][part] = embedded(document(f"{part}.schema.json"), part)
     return documents[name]
+
+
+def embedded(value, name):
+    """A schema as it stands in the components of an OpenRPC document."""
+    if isinstance(value, dict):
+        return {key: moved(each, name) if key == "$ref" else embedded(each, name) for key, each in value.items()}
+    return [embedded(element, name) for element in value] if isinstance(value, list) else value
+
+
+def moved(reference, name):
+    file, _, pointer = reference.partition("#")
+    return f"#/components/schemas/{file.split('.')[0] or name}{pointer}"
+
+
+def references(value):
+    if isinstance(value, dict):
+        yield from (value[key] for key in value if key == "$ref" and isinstance(value[key], str))
+    for element in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
+        yield from references(element)
 
 
 def resolved(reference, home):
@@ -23,7 +45,7 @@ def resolved(reference, home):
     home = document(file) if file else home
     schema = home
     for part in filter(None, pointer.split("/")):
-        schema = schema[part]
+        schema = schema[int(part) if isinstance(schema, list) else part]
     return schema, home
 
 

@@ -35,6 +35,14 @@ class Description(unittest.TestCase):
             self.assertEqual({limit: int(most) for limit, most in table.items()}, greeting["limits"])
             self.assertTrue(all(isinstance(most, int) for most in greeting["limits"].values()), greeting["limits"])
 
+    def test_a_description_refers_to_nothing_outside_it(self):
+        for name, document in self.described.items():
+            found = set(schema.references(document))
+            self.assertIn("#/components/schemas/problem", found)
+            for reference in found:
+                self.assertTrue(reference.startswith("#/"), reference)
+                self.assertIsInstance(schema.resolved(reference, document)[0], dict)
+
     def test_error_codes_are_those_of_the_source(self):
         with open(os.path.join(peer.SOURCE, "protocol", "rpc.h"), encoding="utf-8") as file:
             source = {name: int(code) for name, code in re.findall(r"^  (\w+) = (-\d+),", file.read(), re.M)}
@@ -60,6 +68,7 @@ class Description(unittest.TestCase):
                     messages = [json.loads(line) for line in lines]
             answered |= self.judge(conversation, messages)
         everything = {m["name"] for d in self.described.values() for m in d["methods"] if "result" in m}
+        everything.add("$/progress")
         self.assertEqual(everything - answered, set())
 
     def judge(self, conversation, messages):
@@ -72,6 +81,15 @@ class Description(unittest.TestCase):
                 continue
             if entry["from"] == "peer" and "method" in message and not isinstance(message.get("id"), list):
                 asked[message.get("id")] = message
+            elif entry["from"] == "daemon" and "method" in message:
+                described = {each["name"]: each for each in document["x-notifications"]}[message["method"]]
+                params = {param["name"]: param for param in described["params"]}
+                self.assertLessEqual(set(message["params"]), set(params))
+                for name, param in params.items():
+                    self.assertTrue(name in message["params"] or not param.get("required"), name)
+                    if name in message["params"]:
+                        self.assertIsNone(schema.fault(message["params"][name], param["schema"], document), name)
+                answered.add(message["method"])
             elif entry["from"] == "daemon" and "result" in message:
                 request = asked[message["id"]]
                 method = methods[request["method"]]
@@ -88,8 +106,13 @@ class Description(unittest.TestCase):
                         self.assertIsNone(schema.fault(params[name], param["schema"], document), name)
         return answered
 
-    def test_the_printed_conversation_is_one(self):
-        printed = re.search(r"```conversation\n(.*?)```", protocol(), re.S).group(1)
+    def test_the_printed_conversations_are_some(self):
+        found = re.findall(r"```conversation\n(.*?)```", protocol(), re.S)
+        self.assertEqual(len(found), 2)
+        for printed in found:
+            self.play(printed)
+
+    def play(self, printed):
         with tempfile.TemporaryDirectory() as directory:
             file = os.path.join(directory, "printed.conversation")
             with open(file, "w", encoding="utf-8") as out:

@@ -283,6 +283,9 @@ class Runs(unittest.TestCase):
                 self.assertEqual(back["iteration"], begun + done)
                 self.assertGreater(shown["iteration"], motion["iterations"])
                 self.assertEqual(outcome["iteration"], motion["iterations"] + 80 - done)
+                self.assertEqual(outcome["iterations"], 80)
+                self.assertRegex(outcome["message"], f"^Stopped at iteration {outcome['iteration']}: no more were allowed.")
+                self.assertRegex(outcome["message"], "This run made 80 iterations.$")
                 later.peer.ask("motion/set", motion=motion)
                 for action in outcome["log"]:
                     later.do(**action)

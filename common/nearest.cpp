@@ -1,12 +1,10 @@
-#include "symbolic/nearest.h"
+#include "common/nearest.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "symbolic/quoted.h"
-
-namespace spacetime::symbolic {
+namespace spacetime {
 namespace {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -30,35 +28,42 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 constexpr std::size_t longest_compared = 64;  // characters; longer names are not guessed at
+constexpr std::size_t most_guesses = 3;
+
+// "'a', 'b' or 'c'"
+std::string enumerated(std::span<const std::string> names, char quote) {
+  std::string out;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + (quote + names[i] + quote);
+  return out;
+}
 
 }  // namespace
 
-std::string nearest(std::string_view wrong, std::span<const std::string> candidates) {
-  if (wrong.size() > longest_compared) return {};
-  std::string best;
-  // Of those equally near, one as long as `wrong` is likelier.
+std::vector<std::string> nearest(std::string_view wrong, std::span<const std::string> candidates) {
+  std::vector<std::string> best;
+  if (wrong.size() > longest_compared) return best;
+  // Of those equally near, those as long as `wrong` are likelier.
   std::pair<std::size_t, bool> best_score{std::max<std::size_t>(1, wrong.size() / 3) + 1, false};
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_compared || candidate == wrong) continue;
     const std::size_t dot = candidate.rfind('.');
     const bool tail = dot != std::string::npos && std::string_view(candidate).substr(dot + 1) == wrong;
     const std::pair score{tail ? 0 : distance(wrong, candidate), candidate.size() != wrong.size()};
-    if (score < best_score && score.first < std::max(wrong.size(), candidate.size()))
-      best = candidate, best_score = score;
+    if (score.first >= std::max(wrong.size(), candidate.size())) continue;
+    if (score > best_score || (score == best_score && best.empty())) continue;
+    if (score < best_score) best.clear(), best_score = score;
+    if (best.size() < most_guesses && std::ranges::find(best, candidate) == best.end()) best.push_back(candidate);
   }
   return best;
 }
 
-std::string suggestion(std::string_view wrong, std::span<const std::string> candidates, std::string_view otherwise) {
-  const std::string best = nearest(wrong, candidates);
-  return ": " + (best.empty() ? std::string(otherwise) : "did you mean " + quoted(best) + "?");
+std::string suggestion(std::string_view wrong, std::span<const std::string> candidates, std::string_view otherwise,
+                       char quote) {
+  const auto best = nearest(wrong, candidates);
+  return ": " + (best.empty() ? std::string(otherwise) : "did you mean " + enumerated(best, quote) + "?");
 }
 
-std::string one_of(std::span<const std::string> candidates) {
-  std::string out = "it is ";
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == candidates.size() ? " or " : ", ") + quoted(candidates[i]);
-  return out;
-}
+std::string one_of(std::span<const std::string> candidates) { return "it is " + enumerated(candidates, '\''); }
 
-}  // namespace spacetime::symbolic
+}  // namespace spacetime
