@@ -27,8 +27,11 @@ void draw_bounds(Ui& ui, const Freedom& dof) {
   }
   ImGui::SetNextItemWidth(ui.scaled(120));
   ImGui::InputScalarN("##ends", ImGuiDataType_Double, ends, 2, nullptr, nullptr, "%.4g");
+  ui.control("bounds", "The least and the most that it may be, at every time.");
   ImGui::SameLine();
-  if (ImGui::Button("Bound") && std::isfinite(ends[0]) && std::isfinite(ends[1])) {
+  const bool pressed = ImGui::Button("Bound");
+  ui.control("bound", "Keep it between these two.");
+  if (pressed && std::isfinite(ends[0]) && std::isfinite(ends[1])) {
     ui.act(bound_words(dof.name, ends[0], ends[1]).line);
     ImGui::CloseCurrentPopup();
   }
@@ -38,12 +41,13 @@ void draw_menu(Ui& ui, const Freedom& dof) {
   if (!ImGui::BeginPopupContextItem(("menu " + dof.name).c_str())) return;
   ImGui::TextDisabled("%s", dof.name.c_str());
   if (ImGui::MenuItem("Smooth", "filter")) ui.act(filter_words(0.5, {dof.name}).line);
-  ui.help("Damps what is rough in its curve.");
+  ui.control("smooth dof", "Damps what is rough in its curve.");
   if (ImGui::MenuItem("Shake", "shake")) ui.act("shake amplitude 0.1 of " + dof.name);
-  ui.help("Disturbs its curve, to leave a local minimum.");
+  ui.control("shake dof", "Disturbs its curve, to leave a local minimum.");
   if (ImGui::MenuItem("Refine", "refine")) ui.act("refine of " + dof.name);
-  ui.help("Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
+  ui.control("refine dof", "Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
   if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act(damp_words(0.1, {dof.name}).line);
+  ui.control("damp dof", "An iteration may change its coefficients by no more than this.");
   ImGui::Separator();
   draw_bounds(ui, dof);
   ImGui::EndPopup();

@@ -1,8 +1,13 @@
 // The views, drawn without a window: every one of them in both sizes and themes, and the controls in them.
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <filesystem>
+#include <regex>
 
 #include "common/files.h"
 #include "common/sample.h"
@@ -52,8 +57,37 @@ void expect_inside(Screen& screen, int width, int height) {
     EXPECT_GE(r.x, -1) << name;
     EXPECT_GE(r.y, -1) << name;
     EXPECT_LE(r.x + r.width, static_cast<float>(width) + 1) << name;
-    const bool scrolls = name.starts_with("expression") || name.starts_with("entry") || name.starts_with("example");
+    const bool scrolls = name.starts_with("expression") || name.starts_with("entry") || name.starts_with("file ") ||
+                         name.starts_with("example");
     EXPECT_TRUE(scrolls || r.y + r.height <= static_cast<float>(height) + 1) << name;
+  }
+}
+
+// What is only looked at, or a place where the mouse does many things.
+// Control points tell their numbers in place of help.
+constexpr std::array seen{"part ", "control ", "place ", "mistake ", "time", "title", "outcome", "scene", "curves"};
+
+void expect_help(Screen& screen) {
+  for (const auto& [name, r] : screen.memory().places) {
+    const auto is_seen = [&](const char* one) { return name.starts_with(one); };
+    EXPECT_TRUE(screen.memory().helped.contains(name) || std::ranges::any_of(seen, is_seen)) << name;
+  }
+}
+
+// Every control that ImGui is asked for stands before a `control` of its own in the source, which has help by its type.
+TEST(ViewsSource, EveryControlIsNamedAndHelpedWith) {
+  const std::regex asked(
+      R"(ImGui::(Button|SmallButton|Checkbox|RadioButton|Combo|Input[A-Z]\w*|Drag[FIS]\w*|Slider\w*|Selectable|MenuItem|InvisibleButton|BeginMenu)\()");
+  for (const auto& file : std::filesystem::directory_iterator(SPACETIME_SOURCE_DIR "/gui/views")) {
+    if (file.path().extension() != ".cpp") continue;
+    const std::string text = read_text(file.path());
+    for (std::sregex_iterator at(text.begin(), text.end(), asked), end; at != end; ++at) {
+      const auto from = static_cast<std::size_t>(at->position());
+      const std::string behind = text.substr(from, 900);
+      const bool helped = behind.find("control(") != std::string::npos || behind.find("here(\"curves\")") < 200 ||
+                          behind.find("here(\"scene\")") < 200;
+      EXPECT_TRUE(helped) << file.path() << ": " << behind.substr(0, 60);
+    }
   }
 }
 
@@ -70,6 +104,7 @@ TEST_P(Views, AreDrawnInside) {
   const auto take = [&](const std::string& what) {
     for (int k = 0; k < 3; ++k) screen.frame(state);
     expect_inside(screen, format.width, format.height);
+    expect_help(screen);
     if (const char* folder = std::getenv("SPACETIME_SCREENSHOTS"))
       write_png(fmt::format("{}/view-{}-{}.png", folder, name, what), screen.image());
   };
@@ -92,6 +127,39 @@ TEST_P(Views, AreDrawnInside) {
   take("between");
   screen.memory().shortcuts = true;
   take("shortcuts");
+  screen.memory().shortcuts = false;
+  take("between");
+  using Dialog = FilesMemory::Dialog;
+  for (const auto& [dialog, what] : {std::pair{Dialog::open, "open"}, {Dialog::save, "save"}, {Dialog::film, "film"}}) {
+    screen.memory().files.dialog = dialog;
+    take(what);
+    screen.key(GLFW_KEY_ESCAPE, true);
+    screen.frame(state);
+    screen.key(GLFW_KEY_ESCAPE, false);
+    take("between");
+  }
+  screen.memory().leaving = Leaving{};
+  take("guard");
+  screen.memory().leaving.reset();
+  for (const char* menu : {"File", "Edit", "View", "Help"}) {
+    const auto click = [&](const Rect& r) {
+      screen.move(r.x + r.width / 2, r.y + r.height / 2);
+      screen.frame(state);
+      screen.button(0, true);
+      screen.button(0, false);
+      for (int k = 0; k < 3; ++k) screen.frame(state);
+    };
+    const std::string control = std::string("menu ") + menu;
+    for (int k = 0; k < 3; ++k) screen.frame(state);
+    if (!screen.memory().places.contains(control)) {
+      ADD_FAILURE() << control;
+      continue;
+    }
+    const Rect place = screen.memory().places.at(control);
+    click(place);
+    take(std::string("menu-") + menu);
+    click(place);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Views,
