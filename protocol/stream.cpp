@@ -35,8 +35,8 @@ constexpr std::chrono::milliseconds parting{500};
 // So many may be in their handshakes at one time; others wait in the kernel's queue.
 constexpr int most_handshakes = 32;
 
-template <class Lowest>
-void write_to(Lowest& socket, std::string_view bytes, Stream::Done done) {
+template <class Lowest, class Done>
+void write_to(Lowest& socket, std::string_view bytes, Done done) {
   asio::async_write(socket, asio::buffer(bytes.data(), bytes.size()), std::move(done));
 }
 
@@ -74,35 +74,56 @@ class Parting : public std::enable_shared_from_this<Parting> {
   std::array<char, 4096> block_{};
 };
 
+// `done`, keeping alive meanwhile what the operation works on: a stream that is let go of in the midst of one closes
+// its socket, but the operation looks at it once more before it is over.
+template <class Working>
+auto keeping(std::shared_ptr<Working> working, Stream::Done done) {
+  return [working = std::move(working), done = std::move(done)](boost::system::error_code error, std::size_t bytes) {
+    done(error, bytes);
+  };
+}
+
 class SocketStream final : public Stream {
  public:
-  explicit SocketStream(Socket socket) : socket_(std::move(socket)) {}
-  void read_some(std::span<char> into, Done done) override {
-    socket_.async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
+  explicit SocketStream(Socket socket) : socket_(std::make_shared<Socket>(std::move(socket))) {}
+  ~SocketStream() override {
+    boost::system::error_code ignored;
+    socket_->close(ignored);
   }
-  void write_all(std::string_view bytes, Done done) override { write_to(socket_, bytes, std::move(done)); }
-  void close() override { close_now(socket_); }
-  void part() override { std::make_shared<Parting>(std::move(socket_))->begin(); }
+  void read_some(std::span<char> into, Done done) override {
+    socket_->async_read_some(asio::buffer(into.data(), into.size()), keeping(socket_, std::move(done)));
+  }
+  void write_all(std::string_view bytes, Done done) override {
+    write_to(*socket_, bytes, keeping(socket_, std::move(done)));
+  }
+  void close() override { close_now(*socket_); }
+  void part() override { std::make_shared<Parting>(std::move(*socket_))->begin(); }
 
  private:
-  Socket socket_;
+  std::shared_ptr<Socket> socket_;
 };
 
 class TlsStream final : public Stream {
  public:
   TlsStream(std::shared_ptr<asio::ssl::context> context, std::unique_ptr<TlsSocket> socket)
       : context_(std::move(context)), socket_(std::move(socket)) {}
-  void read_some(std::span<char> into, Done done) override {
-    socket_->async_read_some(asio::buffer(into.data(), into.size()), std::move(done));
+  ~TlsStream() override {
+    boost::system::error_code ignored;
+    socket_->next_layer().close(ignored);
   }
-  void write_all(std::string_view bytes, Done done) override { write_to(*socket_, bytes, std::move(done)); }
+  void read_some(std::span<char> into, Done done) override {
+    socket_->async_read_some(asio::buffer(into.data(), into.size()), keeping(socket_, std::move(done)));
+  }
+  void write_all(std::string_view bytes, Done done) override {
+    write_to(*socket_, bytes, keeping(socket_, std::move(done)));
+  }
   // Both without TLS's own farewell, which would wait for the peer: every message carries its length or its end.
   void close() override { close_now(socket_->next_layer()); }
   void part() override { std::make_shared<Parting>(std::move(socket_->next_layer()))->begin(); }
 
  private:
   std::shared_ptr<asio::ssl::context> context_;
-  std::unique_ptr<TlsSocket> socket_;
+  std::shared_ptr<TlsSocket> socket_;
 };
 
 std::shared_ptr<asio::ssl::context> tls_context(const Credentials& credentials, bool server) {
