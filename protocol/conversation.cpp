@@ -5,6 +5,7 @@
 #include <new>
 
 #include "common/diagnostic.h"
+#include "common/nearest.h"
 #include "protocol/memory.h"
 
 namespace spacetime::protocol {
@@ -301,7 +302,12 @@ void Conversation::perform(Request& request, Writer& result, Work& work) {
     return;
   }
   const Method* method = method_named(request.method);
-  if (!method) throw Error(Code::unknown_method, "there is no method \"" + request.method + "\": see rpc.discover");
+  if (!method) {
+    std::vector<std::string> names{"initialize", "shutdown", "exit", "$/cancelRequest", "rpc.discover"};
+    for (const Method& one : methods_) names.emplace_back(one.name);
+    throw Error(Code::unknown_method, "there is no method \"" + request.method + "\"" +
+                                          suggestion(request.method, names, "see rpc.discover", '"'));
+  }
   {
     const std::lock_guard lock(mutex_);
     if (work.revision && newest_ && *work.revision < *newest_) {

@@ -37,7 +37,7 @@ std::string quoted(std::string_view name) { return std::string("\"").append(name
 
 std::string there_is_no(std::string_view what, std::string_view name, std::span<const std::string> present) {
   constexpr std::size_t most = 8;  // names that a sentence lists
-  std::string others = present.empty() ? "the problem has none" : "there is ";
+  std::string others = present.empty() ? "the problem has none" : "the problem has ";
   for (std::size_t i = 0; i < std::min(present.size(), most); ++i) {
     others += (i == 0 ? "" : i + 1 == present.size() ? " and " : ", ") + quoted(present[i]);
   }
