@@ -49,6 +49,7 @@ struct Checkpoint {
   // What a window leaves as it is, as it was measured when the window opened.
   struct Outside {
     double objective = 0;
+    std::vector<double> terms;        // of the objective, then of soft constraints
     std::vector<double> functionals;  // one each
     bool operator==(const Outside&) const = default;
   };

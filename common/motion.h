@@ -39,6 +39,15 @@ struct Violation {
   bool operator==(const Violation&) const = default;
 };
 
+// What each instance of a constraint costs, component by component, or each coefficient of a bounded degree of freedom.
+struct Multipliers {
+  std::string name;
+  int line = 0;
+  std::vector<double> times;                // s, of the instances; none of a constraint without time, which has one
+  std::vector<std::vector<double>> values;  // one row an instance, one column a component
+  bool operator==(const Multipliers&) const = default;
+};
+
 // Sampled expressions and body poses, on request.
 struct Samples {
   std::vector<double> times;
@@ -52,11 +61,12 @@ struct Samples {
 struct IterationRecord {
   int iteration = 0;  // summed over all actions
   double objective = 0;
-  double violation = 0;     // largest, in its own units
-  double stationarity = 0;  // of the Lagrangian, relative
-  double step = 0;          // largest change of a coefficient
-  double shift = 0;         // inertia correction
-  double seconds = 0;       // since the problem was loaded
+  std::vector<std::pair<std::string, double>> terms{};  // what it is the sum of, as the motion's
+  double violation = 0;                                 // largest, in its own units
+  double stationarity = 0;                              // of the Lagrangian, relative
+  double step = 0;                                      // largest change of a coefficient
+  double shift = 0;                                     // inertia correction
+  double seconds = 0;                                   // since the problem was loaded
   bool operator==(const IterationRecord&) const = default;
 };
 
@@ -69,7 +79,7 @@ struct Minimum {
 };
 
 // Where the status is `failed`, measures may be no numbers: the objective, its terms, violations, samples, and a
-// record's objective, violation and stationarity.  All else is finite always.
+// record's objective, terms, violation and stationarity.  All else is finite always.
 struct Motion {
   double start = 0, end = 1;
   Status status = Status::stopped;
@@ -83,6 +93,7 @@ struct Motion {
   std::vector<Trajectory> dofs;
   std::vector<std::pair<std::string, double>> constants;
   std::vector<std::pair<std::string, double>> parameters;
+  std::vector<Multipliers> multipliers;  // on request, where they are known: in the order of the violations
   std::optional<Samples> samples;
   std::vector<IterationRecord> record;      // on request: all iterations
   std::vector<Minimum> minima;              // distinct ones, best first, where the last `solve` had many starts

@@ -1,8 +1,6 @@
 #include "gui/replies.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "gui/words.h"
 #include "protocol/check.h"
@@ -57,8 +55,6 @@ std::vector<Statement> outline_from(const Node& node, const std::string& text) {
   });
 }
 
-double measure(const Node& node) { return node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.number(); }
-
 std::vector<Logged> log_from(const Node& node) {
   return node.each([](const Node& action) {
     std::string text = action.json().dump();
@@ -93,15 +89,7 @@ Iterated iterated_from(int number, const Json& value) {
   const Node node(value, document);
   Iterated event;
   event.number = number;
-  IterationRecord record;
-  record.iteration = node["iteration"].integer();
-  record.objective = measure(node["objective"]);
-  record.violation = measure(node["violation"]);
-  record.stationarity = measure(node["stationarity"]);
-  record.step = measure(node["step"]);
-  record.shift = measure(node["shift"]);
-  record.seconds = measure(node["seconds"]);
-  event.records = {record};
+  event.records = node["record"].each(record_from);
   event.changed = node["dofs"].each([](const Node& dof) {
     Trajectory trajectory;
     trajectory.name = dof["name"].string();
@@ -118,7 +106,7 @@ Iterated iterated_from(int number, const Json& value) {
 }
 
 void merge(Iterated& earlier, Iterated later) {
-  if (earlier.records.size() < most_records) {
+  if (earlier.records.size() < most_records || later.records.empty()) {
     earlier.records.insert(earlier.records.end(), later.records.begin(), later.records.end());
   } else {
     earlier.records.back() = later.records.back();

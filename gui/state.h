@@ -46,6 +46,12 @@ struct Curves {
   bool operator==(const Curves&) const = default;
 };
 
+// The iterations of a run, for plots; of several where one went on from where the other ended.
+struct Record {
+  std::vector<IterationRecord> iterations;  // the first is where it began
+  std::vector<int> edits;                   // numbers of iterations after which something was edited while it ran
+};
+
 // One line of the log: something that was done, in the scene language, and where it led.
 struct Entry {
   std::string text;                               // of the line or lines; of the first entry the scene as it was opened
@@ -54,6 +60,7 @@ struct Entry {
   std::shared_ptr<const Motion> motion;           // where it led; null until it is known
   std::shared_ptr<const std::string> checkpoint;  // the motion document to come back to; null where there is none
   bool iterated = false;                          // a `solve` or an `iterate` is in it
+  Record record;                                  // of the run that led to it, where one did
   int number = 0;                                 // its own in this session, whatever its place in the log
 };
 
@@ -133,7 +140,7 @@ struct State {
   std::shared_ptr<const Curves> ghost;     // the motion before the last edit, while it is shown
   std::shared_ptr<const Motion> motion;    // the last whole motion: status, terms, violations, multipliers
   std::shared_ptr<const Samples> samples;  // of all plots, evenly over the time, of `curves` or shortly before
-  std::vector<IterationRecord> record;     // of all iterations shown, for the convergence plot
+  Record record;                           // of the run that goes on, or of the last one
   long revision = 0;                       // counts every change of `curves`
 
   // What goes on.

@@ -115,7 +115,7 @@ void ask_motion(State& state, Effects& effects, Wanted wanted) {
   const bool checkpoint = wanted.kind == Wanted::Kind::checkpoint;
   Request request;
   request.method = "motion/get";
-  if (checkpoint) request.params = "\"checkpoint\":true";
+  request.params = checkpoint ? "\"checkpoint\":true,\"multipliers\":true" : "\"multipliers\":true";
   request.answer = checkpoint ? Request::Answer::checkpoint : Request::Answer::reached;
   ask(state, effects, std::move(request), wanted);
 }
@@ -224,9 +224,10 @@ void show(State& state, const Entry& entry) {
   state.motion = entry.motion;
   state.curves = entry.motion ? curves_of(*entry.motion) : nullptr;
   ++state.revision;
-  if (!entry.motion) return;
-  const int iterations = entry.motion->iterations;
-  std::erase_if(state.record, [&](const IterationRecord& record) { return record.iteration > iterations; });
+  state.record = {};
+  for (auto i = &entry - state.log.data(); i >= 0 && state.record.iterations.empty(); --i) {
+    state.record = state.log[static_cast<std::size_t>(i)].record;
+  }
 }
 
 }  // namespace spacetime::gui

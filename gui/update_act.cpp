@@ -1,6 +1,7 @@
 // Acts: lines of the scene language, performed one after another.  A line is compiled as the end of the present text;
 // then its actions are sent, and when all are answered the line is part of the text.
 #include <algorithm>
+#include <limits>
 
 #include "gui/apply.h"
 #include "gui/words.h"
@@ -66,6 +67,23 @@ std::vector<Statement> added_statements(const Scene& base, const Scene& compiled
     statement.line -= lines;
   }
   return added;
+}
+
+// A run that goes on where the last one ended is recorded with that, one after an edit anew, from the motion it began
+// at.
+void begin_record(State& state) {
+  const Entry& entry = state.log[state.present];
+  if (state.work.recorded == entry.number) return;
+  state.record = {};
+  if (!entry.motion) return;
+  const Motion& motion = *entry.motion;
+  IterationRecord start;
+  start.iteration = motion.iterations;
+  start.objective = motion.objective;
+  start.terms = motion.terms;
+  start.violation = motion.violation;
+  start.stationarity = std::numeric_limits<double>::quiet_NaN();  // a motion does not tell it
+  state.record.iterations.push_back(std::move(start));
 }
 
 }  // namespace
@@ -176,6 +194,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       work.whole = is_of_many_starts(action);
       state.paused.reset();
       state.stopping = false;
+      begin_record(state);
       state.ghost = state.ghost ? state.ghost : state.curves;
       work.job = {};
       return;
@@ -243,6 +262,8 @@ void finish_task(State& state, Effects& effects) {
   // After a drag the curves shown are those it led to already.
   const auto& before = state.log[state.present].motion;
   if (!work.run) state.ghost = before ? curves_of(*before) : state.curves;
+  if (work.run && !state.record.iterations.empty())
+    state.record.edits.push_back(state.record.iterations.back().iteration);
   work.job = {};
   append(state, std::move(entry), task.merge, true, effects);
   if (work.run) ask_motion(state, effects, {Kind::look});  // what a set constant is worth

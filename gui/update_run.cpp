@@ -108,9 +108,11 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   entry.scene = appended(*last.scene, text, statements, nullptr);
   entry.iterated = true;
   if (work.scripted) take_from_script(state);
+  if (seen) entry.record = state.record;
   // Where the person did something else meanwhile, or stands at what it began from, it stays an entry of its own.
   const bool behind = seen || state.present + 1 < static_cast<int>(state.log.size());
   append(state, std::move(entry), work.merge && behind && last.number == work.began, seen, effects);
+  if (seen) work.recorded = state.log.back().number;
   if (!pausing || !seen || event.status != Status::stopped) return;
   int iterations = 0;
   for (const Logged& logged : event.log) iterations += iterations_in(logged.action);
@@ -174,7 +176,7 @@ void apply(State& state, const Iterated& event, Effects& effects) {
     ++state.revision;
   }
   if (!steered) {
-    state.record.insert(state.record.end(), event.records.begin(), event.records.end());
+    state.record.iterations.insert(state.record.iterations.end(), event.records.begin(), event.records.end());
     return;
   }
   work.drag->moved = true;

@@ -93,6 +93,7 @@ struct Work {
   bool pausing = false;    // it was stopped to go on with it
   bool unseen = false;     // the person has gone elsewhere meanwhile
   bool discarded = false;  // nothing is to be left of it
+  int recorded = 0;        // number of the entry that the run of State::record ended in
 
   // Where the optimizer stands: number of an entry; 0: unknown.
   int at = 0;

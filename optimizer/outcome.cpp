@@ -107,11 +107,11 @@ std::string remark_of(int pivoted) {
   return pivoted > 0 ? fmt::format(" ({} of the steps needed a pivoted solve.)", pivoted) : "";
 }
 
-void measure(const Transcription& t, std::span<const double> x, const Values& values, Motion& motion) {
+std::vector<std::pair<std::string, double>> terms_of(const Transcription& t, const Values& values) {
   const Problem& problem = *t.problem;
-  motion.objective = values.objective;
+  std::vector<std::pair<std::string, double>> terms;
   for (std::size_t k = 0; k < problem.objective.size(); ++k) {
-    motion.terms.emplace_back(problem.objective[k].name, values.terms[k]);
+    terms.emplace_back(problem.objective[k].name, values.terms[k]);
   }
   std::vector<double> sums(problem.constraints.size(), 0.0);
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
@@ -120,40 +120,79 @@ void measure(const Transcription& t, std::span<const double> x, const Values& va
     sums[t.rows[r].statement] += t.rows[r].weight / 2 * amount * amount;
   }
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    if (problem.constraints[k].weight) motion.terms.emplace_back(problem.constraints[k].name, sums[k]);
+    if (problem.constraints[k].weight) terms.emplace_back(problem.constraints[k].name, sums[k]);
   }
+  return terms;
+}
+
+int count_of_terms(const Transcription& t) {
+  const auto is_soft = [](const Constraint& constraint) { return constraint.weight.has_value(); };
+  return static_cast<int>(t.problem->objective.size()) +
+         static_cast<int>(std::ranges::count_if(t.problem->constraints, is_soft));
+}
+
+void measure(const Transcription& t, std::span<const double> x, const Values& values, Motion& motion) {
+  motion.objective = values.objective;
+  motion.terms = terms_of(t, values);
   motion.violations = violations(t, x, values);
   for (const Violation& violation : motion.violations) {
     if (!(violation.max <= motion.violation)) motion.violation = violation.max;
   }
 }
 
-void add_multipliers(const Transcription& t, const Layout& layout, const NewtonState& state, Motion& motion) {
-  if (motion.status == Status::infeasible || motion.status == Status::failed) return;
-  if (state.condition != StepResult::stepped) return;
-  const auto add = [&](const std::string& name, const Place& place, double value, double time) {
-    const auto found = std::ranges::find_if(motion.violations, [&](const Violation& violation) {
-      return violation.line == place.line && violation.name == name;
-    });
-    if (found == motion.violations.end() || !std::isfinite(value)) return;
-    auto& multiplier = found->multiplier;
-    if (multiplier && !(std::abs(value) > std::abs(multiplier->value))) return;
-    multiplier = Multiplier{value, std::isnan(time) ? std::nullopt : std::optional(time)};
-  };
+std::vector<Multipliers> multipliers_of(const Transcription& t, const Layout& layout, const NewtonState& state) {
+  std::vector<Multipliers> result;
+  std::vector<int> of_constraint(t.problem->constraints.size(), -1);
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
-    if (t.rows[r].kind != Row::Kind::hard) continue;
-    const Constraint& constraint = t.problem->constraints[t.rows[r].statement];
-    add(constraint.name, constraint.place, state.multipliers[r], t.rows[r].time);
+    const Row& row = t.rows[r];
+    if (row.kind != Row::Kind::hard) continue;
+    const Constraint& constraint = t.problem->constraints[row.statement];
+    int& index = of_constraint[row.statement];
+    if (index < 0) {
+      index = static_cast<int>(result.size());
+      result.push_back({constraint.name, constraint.place.line, {}, {}});
+    }
+    // Instances follow one another, each component by component.
+    auto& [name, line, times, values] = result[index];
+    const std::size_t components = t.problem->programs.at(constraint.program).values.size();
+    if (values.empty() || values.back().size() == components) {
+      values.emplace_back();
+      if (!std::isnan(row.time)) times.push_back(row.time);
+    }
+    values.back().push_back(state.multipliers[r]);
   }
   for (int k = 0; k < t.dofs(); ++k) {
     const Dof& dof = t.problem->dofs[k];
     if (!dof.lower && !dof.upper) continue;
+    Multipliers bound{dof.name, dof.place.line, {}, {}};
     const auto times = greville(dof.basis);
     for (int u = t.first[k]; u < t.first[k + 1]; ++u) {
       const int position = layout.of_unknown[u];
       if (position < 0) continue;
-      add(dof.name, dof.place, state.barrier.upper_dual[position] - state.barrier.lower_dual[position],
-          times[u - t.origin(k)]);
+      bound.times.push_back(times[u - t.origin(k)]);
+      bound.values.push_back({state.barrier.upper_dual[position] - state.barrier.lower_dual[position]});
+    }
+    if (!bound.times.empty()) result.push_back(std::move(bound));
+  }
+  std::erase_if(result, [](const Multipliers& multipliers) {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    return !std::ranges::all_of(multipliers.values, [&](const auto& row) { return std::ranges::all_of(row, finite); });
+  });
+  return result;
+}
+
+void add_multipliers(const std::vector<Multipliers>& all, Motion& motion) {
+  for (const Multipliers& multipliers : all) {
+    const auto found = std::ranges::find_if(motion.violations, [&](const Violation& violation) {
+      return violation.line == multipliers.line && violation.name == multipliers.name;
+    });
+    if (found == motion.violations.end()) continue;
+    for (std::size_t i = 0; i < multipliers.values.size(); ++i) {
+      for (const double value : multipliers.values[i]) {
+        if (found->multiplier && !(std::abs(value) > std::abs(found->multiplier->value))) continue;
+        found->multiplier =
+            Multiplier{value, multipliers.times.empty() ? std::nullopt : std::optional(multipliers.times[i])};
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/motion.h"
@@ -27,12 +28,19 @@ Outcome outcome_of(StepResult result, const Transcription& transcription, const 
 // What a motion's message has at its end where that many steps needed a pivoted solve.
 std::string remark_of(int pivoted);
 
+// What the objective is the sum of: its terms, weighted, then soft constraints by their names.
+std::vector<std::pair<std::string, double>> terms_of(const Transcription& transcription, const Values& values);
+int count_of_terms(const Transcription& transcription);
+
 // Fills the measures of a motion: objective, terms, violations.
 void measure(const Transcription& transcription, std::span<const double> x, const Values& values, Motion& motion);
 
-// Adds what each constraint and bound costs: its largest multiplier, by name and line.  Only where there are any that
-// mean something: the state is Newton's own, and not infeasible or failed.
-void add_multipliers(const Transcription& transcription, const Layout& layout, const NewtonState& state,
-                     Motion& motion);
+// What each instance of each hard constraint and each coefficient of each bounded degree of freedom costs; without
+// those whose multiplier is no number.
+std::vector<Multipliers> multipliers_of(const Transcription& transcription, const Layout& layout,
+                                        const NewtonState& state);
+
+// Adds the largest of each to the violations, by name and line.
+void add_multipliers(const std::vector<Multipliers>& multipliers, Motion& motion);
 
 }  // namespace spacetime::optimizer

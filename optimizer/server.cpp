@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 
 #include "common/assert.h"
 #include "common/diagnostic.h"
@@ -44,10 +45,37 @@ struct Shown {
   std::vector<Trajectory> dofs;
 };
 
+// The iterations of a run that no message has told of yet: iterates may be left out, what was measured at them is not.
+class Untold {
+ public:
+  void add(const IterationRecord& record) {
+    const std::lock_guard lock(mutex_);
+    if (records_.size() == most) {  // nobody reads: every second one says as much
+      for (std::size_t i = 0; i < most / 2; ++i) records_[i] = std::move(records_[2 * i]);
+      records_.resize(most / 2);
+    }
+    records_.push_back(record);
+  }
+  std::vector<IterationRecord> take_up_to(int iteration) {
+    const std::lock_guard lock(mutex_);
+    const auto later = [&](const IterationRecord& record) { return record.iteration > iteration; };
+    const auto end = std::ranges::find_if(records_, later);
+    std::vector<IterationRecord> told(std::make_move_iterator(records_.begin()), std::make_move_iterator(end));
+    records_.erase(records_.begin(), end);
+    return told;
+  }
+
+ private:
+  static constexpr std::size_t most = 1024;
+  std::mutex mutex_;
+  std::vector<IterationRecord> records_;
+};
+
 // An iterate, copied to be written later, or never.
 struct Snapshot {
   int run = 0;
   IterationRecord record;
+  std::shared_ptr<Untold> untold;
   std::vector<Trajectory> dofs;
   std::vector<std::pair<std::string, double>> parameters;
 
@@ -62,6 +90,8 @@ struct Snapshot {
       write_measure(to, "step", record.step);
       write_measure(to, "shift", record.shift);
       to.member("seconds", record.seconds);
+      to.key("record");
+      to.list_of(untold->take_up_to(record.iteration), [&](const IterationRecord& one) { write(to, one, true); });
       to.key("dofs");
       const bool same = shown.run == run && shown.dofs.size() == dofs.size();
       to.list([&] {
@@ -179,11 +209,12 @@ class Peer {
   }
 
   void get(const Node& params, Writer& result) {
-    params.object({}, {"checkpoint", "revision"});
+    params.object({}, {"checkpoint", "multipliers", "revision"});
     Session& session = present();
-    const auto checkpoint = params.find("checkpoint");
+    const auto checkpoint = params.find("checkpoint"), multipliers = params.find("multipliers");
     if (run_) session.stop("Going on: this is iteration " + std::to_string(session.iterations()) + ".");
     Motion motion = session.motion();
+    if (multipliers && multipliers->boolean()) motion.multipliers = session.multipliers();
     if (checkpoint && checkpoint->boolean()) {
       motion.checkpoint = session.checkpoint();
       motion.checkpoint->problem = fingerprint(session.original());
@@ -345,10 +376,10 @@ class Peer {
     Session& session = *session_;
     const int number = ++runs_;
     bool stopped = false;
-    const auto show = [&](const IterationRecord& record) {
-      call.progress([iterate = Snapshot{number, record, session.trajectories(), session.parameters()}, shown = shown_] {
-        return iterate.text(*shown);
-      });
+    const auto show = [&, untold = std::make_shared<Untold>()](const IterationRecord& record) {
+      untold->add(record);
+      call.progress([iterate = Snapshot{number, record, untold, session.trajectories(), session.parameters()},
+                     shown = shown_] { return iterate.text(*shown); });
     };
     Watch watch;
     watch.progress = show;

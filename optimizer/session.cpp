@@ -241,12 +241,17 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
   ++restarts_;
   minima_.clear();
   objective_outside_ = 0;
+  terms_outside_.clear();
   x_ = std::move(x);
   auto own = now_->open(x_);
   if (now_->part) {
     Workspace workspace;
-    objective_outside_ =
-        evaluate(now_->whole, x_, workspace).objective - evaluate(*now_->part, own, workspace).objective;
+    const Values whole = evaluate(now_->whole, x_, workspace), part = evaluate(*now_->part, own, workspace);
+    objective_outside_ = whole.objective - part.objective;
+    const auto inside = terms_of(*now_->part, part);
+    for (const auto& [name, value] : terms_of(now_->whole, whole)) {
+      terms_outside_.push_back(value - inside[terms_outside_.size()].second);
+    }
   }
   state_ = now_->newton.start(std::move(own), carried);
   state_.iterations = iterations;
@@ -259,8 +264,11 @@ void Session::restart(std::vector<double> x, const Carried* carried) {
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
 
 IterationRecord Session::record() const {
+  auto terms = terms_of(now_->t(), state_.values);
+  for (std::size_t k = 0; k < terms_outside_.size(); ++k) terms[k].second += terms_outside_[k];
   return {state_.iterations,
           state_.values.objective + objective_outside_,
+          std::move(terms),
           state_.measures.violation,
           state_.measures.stationarity,
           state_.step,
@@ -327,7 +335,7 @@ Motion Session::motion(double tolerance) {
   Workspace workspace;
   const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
   measure(t, x, evaluate(t, x, workspace, active), motion);
-  if (!foreign()) add_multipliers(now_->t(), now_->layout, state_, motion);
+  add_multipliers(multipliers(), motion);
   motion.dofs = trajectories();
   motion.parameters = parameters();
   for (const Constant& constant : problem.constants) {
@@ -338,6 +346,14 @@ Motion Session::motion(double tolerance) {
   motion.seconds = state_.seconds;
   motion.seconds.total = elapsed();
   return motion;
+}
+
+// They mean something where the state is Newton's own, judged, and neither infeasible nor failed.
+std::vector<Multipliers> Session::multipliers() const {
+  const Status status = outcome_.status;
+  if (foreign() || status == Status::infeasible || status == Status::failed) return {};
+  if (state_.condition != StepResult::stepped) return {};
+  return multipliers_of(now_->t(), now_->layout, state_);
 }
 
 Samples Session::samples(std::span<const double> times) const {

@@ -58,6 +58,8 @@ class Session {
   // The motion as it stands, with what the last `solve` or `iterate` came to.  One edited since is judged first, by the
   // tolerance, under the problem as it is now.
   Motion motion(double tolerance = Solve{}.tolerance);
+  // What every instance of what holds costs; none where nobody knows.
+  std::vector<Multipliers> multipliers() const;
   // Goes on from this motion.  With a checkpoint: where that was made, to the same bits, edits, window and damping
   // included, in a session of the same problem.  Without: as far as names agree, on its knots where they span the same
   // time, and from its number of iterations.  Throws InputError (CheckpointError); all is then as it was before.
@@ -139,10 +141,11 @@ class Session {
   std::optional<Motion> start_;
   int declared_ = 0;  // actions of the problem's list before which everything is declared
   Setting setting_;
-  int shakes_ = 0;                 // without a seed of their own, so far
-  std::shared_ptr<Numerics> now_;  // shared with the threads of many starts
-  std::vector<double> x_;          // all unknowns; what is free is in state_
-  double objective_outside_ = 0;   // the part of the objective that the window leaves as it is
+  int shakes_ = 0;                     // without a seed of their own, so far
+  std::shared_ptr<Numerics> now_;      // shared with the threads of many starts
+  std::vector<double> x_;              // all unknowns; what is free is in state_
+  double objective_outside_ = 0;       // the part of the objective that the window leaves as it is
+  std::vector<double> terms_outside_;  // of its terms (terms_of); empty without a window
   NewtonState state_;
   int restarts_ = 0;  // how often something else than a step has put the motion where it is
   Outcome outcome_;

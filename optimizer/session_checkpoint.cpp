@@ -22,7 +22,7 @@ Checkpoint Session::checkpoint() const {
   at.judged = judged_;
   const auto x = unknowns();
   at.functionals = {x.begin() + t.first_functional(), x.begin() + t.first_parameter()};
-  if (now_->part) at.outside = {objective_outside_, now_->part->elsewhere};
+  if (now_->part) at.outside = {objective_outside_, terms_outside_, now_->part->elsewhere};
   at.step = state_.step;
   at.last_shift = state_.shift_used;
   at.pivoted = now_->newton.pivoted_solves();
@@ -91,6 +91,7 @@ void Session::resume(const Motion& motion) {
   if (auto& part = numerics->part) {
     if (!at.outside) throw CheckpointError("/checkpoint", "a window needs the member 'outside'");
     require_size("/checkpoint/outside/functionals", at.outside->functionals.size(), whole.functionals());
+    require_size("/checkpoint/outside/terms", at.outside->terms.size(), count_of_terms(whole));
     part->elsewhere = at.outside->functionals;
     own = taken(whole, *part, x);
   }
@@ -134,6 +135,7 @@ void Session::resume(const Motion& motion) {
   now_ = std::move(numerics);
   x_ = std::move(x);
   objective_outside_ = at.outside ? at.outside->objective : 0;
+  terms_outside_ = at.outside ? at.outside->terms : std::vector<double>{};
   state_ = std::move(state);
   ++restarts_;
   other_ = std::move(other);

@@ -103,6 +103,7 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
   all.numbers(checkpoint.functionals, path + "/functionals");
   if (const auto& outside = checkpoint.outside) {
     all.number(outside->objective, path + "/outside/objective", true);
+    all.numbers(outside->terms, path + "/outside/terms", true);
     all.numbers(outside->functionals, path + "/outside/functionals", true);
   }
   all.number(checkpoint.step, path + "/step");

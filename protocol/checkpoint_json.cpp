@@ -136,6 +136,7 @@ void write(Writer& to, const Checkpoint& checkpoint, bool failed, const std::str
           to.key("outside");
           to.object([&] {
             measures.member("objective", outside->objective);
+            measures.member("terms", outside->terms);
             measures.member("functionals", outside->functionals);
           });
         }
@@ -224,8 +225,9 @@ Checkpoint checkpoint_from(const Node& node, bool stamped) {
   checkpoint.judged = node["judged"].boolean();
   checkpoint.functionals = node["functionals"].numbers();
   if (const auto outside = node.find("outside")) {
-    outside->object({"objective", "functionals"});
-    checkpoint.outside = {measure_from((*outside)["objective"]), (*outside)["functionals"].each(measure_from)};
+    outside->object({"objective", "terms", "functionals"});
+    checkpoint.outside = {measure_from((*outside)["objective"]), (*outside)["terms"].each(measure_from),
+                          (*outside)["functionals"].each(measure_from)};
   }
   checkpoint.step = node["step"].number();
   checkpoint.last_shift = node["shift"].number();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -123,12 +124,36 @@ std::optional<Fault> validate_violations(const Motion& motion, bool failed) {
   return std::nullopt;
 }
 
+std::optional<Fault> validate_multipliers(const Motion& motion) {
+  for (std::size_t i = 0; i < motion.multipliers.size(); ++i) {
+    const auto& [name, line, times, values] = motion.multipliers[i];
+    const auto path = below("/multipliers", i);
+    if (auto fault = validate_name(name, path + "/name")) return fault;
+    if (line < 0) return Fault{path + "/line", "must not be negative"};
+    if (auto fault = all_finite(times, path + "/times")) return fault;
+    if (values.size() != std::max<std::size_t>(times.size(), 1)) {
+      return Fault{path + "/values", "needs one row an instance"};
+    }
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      const auto own = below(path + "/values", row);
+      if (values[row].empty() || values[row].size() != values.front().size()) {
+        return Fault{own, "needs one number a component"};
+      }
+      if (auto fault = all_finite(values[row], own)) return fault;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<Fault> validate_record(const Motion& motion, bool failed) {
   for (std::size_t i = 0; i < motion.record.size(); ++i) {
     const auto& record = motion.record[i];
     const auto path = below("/record", i);
     if (record.iteration < 0) return Fault{path + "/iteration", "must not be negative"};
     if (auto fault = measured(record.objective, failed, path + "/objective")) return fault;
+    for (const auto& [name, value] : record.terms) {
+      if (auto fault = measured(value, failed, below(path + "/terms", name))) return fault;
+    }
     if (auto fault = measured(record.violation, failed, path + "/violation")) return fault;
     if (auto fault = measured(record.stationarity, failed, path + "/stationarity")) return fault;
     if (auto fault = finite(record.step, path + "/step")) return fault;
@@ -171,6 +196,7 @@ std::optional<Fault> validate(const Motion& motion) {
   if (auto fault = validate_dofs(motion, motion.dofs, "/dofs")) return fault;
   if (auto fault = validate_named(motion.constants, "/constants", finite)) return fault;
   if (auto fault = validate_named(motion.parameters, "/parameters", finite)) return fault;
+  if (auto fault = validate_multipliers(motion)) return fault;
   if (motion.samples) {
     if (auto fault = validate(*motion.samples, failed)) return fault;
   }

@@ -78,6 +78,23 @@ Violation violation_from(const Node& node) {
   return violation;
 }
 
+void write(Writer& to, const Multipliers& multipliers) {
+  to.object([&] {
+    to.member("name", multipliers.name);
+    to.member("line", multipliers.line);
+    to.key("times");
+    to.numbers(multipliers.times);
+    to.key("values");
+    to.list_of(multipliers.values, [&](const std::vector<double>& row) { to.numbers(row); });
+  });
+}
+
+Multipliers multipliers_from(const Node& node) {
+  node.object({"name", "line", "times", "values"});
+  return {node["name"].string(), node["line"].integer(), node["times"].numbers(),
+          node["values"].each([](const Node& row) { return row.numbers(); })};
+}
+
 void write(const Measures& measures, const Samples& samples) {
   auto& to = measures.to;
   to.object(
@@ -93,30 +110,6 @@ void write(const Measures& measures, const Samples& samples) {
 Samples samples_from(const Node& node) {
   node.object({"times", "values", "poses"});
   return {node["times"].numbers(), tables_from(node["values"]), tables_from(node["poses"])};
-}
-
-void write(const Measures& measures, const IterationRecord& record) {
-  auto& to = measures.to;
-  to.object([&] {
-    to.member("iteration", record.iteration);
-    measures.member("objective", record.objective);
-    measures.member("violation", record.violation);
-    measures.member("stationarity", record.stationarity);
-    to.member("step", record.step);
-    to.member("shift", record.shift);
-    to.member("seconds", record.seconds);
-  });
-}
-
-IterationRecord record_from(const Node& node) {
-  node.object({"iteration", "objective", "violation", "stationarity", "step", "shift", "seconds"});
-  return {.iteration = node["iteration"].integer(),
-          .objective = measure_from(node["objective"]),
-          .violation = measure_from(node["violation"]),
-          .stationarity = measure_from(node["stationarity"]),
-          .step = node["step"].number(),
-          .shift = node["shift"].number(),
-          .seconds = node["seconds"].number()};
 }
 
 void write(Writer& to, const Minimum& minimum) {
@@ -143,6 +136,35 @@ Status status_from(const Node& node) {
 }
 
 }  // namespace
+
+void write(Writer& to, const IterationRecord& record, bool failed) {
+  const Measures measures{to, failed};
+  to.object([&] {
+    to.member("iteration", record.iteration);
+    measures.member("objective", record.objective);
+    to.key("terms");
+    to.object([&] {
+      for (const auto& [name, value] : record.terms) measures.member(name, value);
+    });
+    measures.member("violation", record.violation);
+    measures.member("stationarity", record.stationarity);
+    to.member("step", record.step);
+    to.member("shift", record.shift);
+    to.member("seconds", record.seconds);
+  });
+}
+
+IterationRecord record_from(const Node& node) {
+  node.object({"iteration", "objective", "terms", "violation", "stationarity", "step", "shift", "seconds"});
+  return {.iteration = node["iteration"].integer(),
+          .objective = measure_from(node["objective"]),
+          .terms = named(node["terms"], measure_from),
+          .violation = measure_from(node["violation"]),
+          .stationarity = measure_from(node["stationarity"]),
+          .step = node["step"].number(),
+          .shift = node["shift"].number(),
+          .seconds = node["seconds"].number()};
+}
 
 void write(Writer& to, const Motion& motion) {
   const Measures measures{to, motion.status == Status::failed};
@@ -180,6 +202,11 @@ void write(Writer& to, const Motion& motion) {
             motion.dofs, [&](const Trajectory& dof) { write(to, dof); }, Set::in_lines);
         member(to, "constants", motion.constants);
         member(to, "parameters", motion.parameters);
+        if (!motion.multipliers.empty()) {
+          to.key("multipliers");
+          to.list_of(
+              motion.multipliers, [&](const Multipliers& multipliers) { write(to, multipliers); }, Set::in_lines);
+        }
         if (motion.samples) {
           to.key("samples");
           write(measures, *motion.samples);
@@ -187,7 +214,7 @@ void write(Writer& to, const Motion& motion) {
         if (!motion.record.empty()) {
           to.key("record");
           to.list_of(
-              motion.record, [&](const IterationRecord& record) { write(measures, record); }, Set::in_lines);
+              motion.record, [&](const IterationRecord& record) { write(to, record, measures.failed); }, Set::in_lines);
         }
         if (!motion.minima.empty()) {
           to.key("minima");
@@ -219,7 +246,7 @@ Motion motion_from(const Node& node) {
   const bool stamped = formats[static_cast<std::size_t>(node["format"].choice(formats))] == motion_format;
   node.object({"format", "time", "status", "message", "iterations", "seconds", "objective", "violation", "dofs",
                "constants", "parameters"},
-              {"samples", "record", "minima", "bodies", "programs", "checkpoint"});
+              {"multipliers", "samples", "record", "minima", "bodies", "programs", "checkpoint"});
   Motion motion;
   const auto time = node["time"];
   if (time.list() != 2) time.expected("a list of 2 numbers");
@@ -242,6 +269,7 @@ Motion motion_from(const Node& node) {
   motion.dofs = node["dofs"].each(trajectory_from);
   motion.constants = named_numbers(node["constants"]);
   motion.parameters = named_numbers(node["parameters"]);
+  if (const auto multipliers = node.find("multipliers")) motion.multipliers = multipliers->each(multipliers_from);
   if (const auto samples = node.find("samples")) motion.samples = samples_from(*samples);
   if (const auto record = node.find("record")) motion.record = record->each(record_from);
   if (const auto minima = node.find("minima")) motion.minima = minima->each(minimum_from);

@@ -20,6 +20,10 @@ inline constexpr std::string_view motion_document = "motion document";  // in se
 std::string write(const Motion& motion);
 void write(Writer& to, const Motion& motion);
 
+// One of its iterations, for a motion that `failed` or may yet.
+void write(Writer& to, const IterationRecord& record, bool failed);
+IterationRecord record_from(const Node& node);
+
 // The motion that a document describes, checked (check.h).  Throws DocumentError.
 Motion read_motion(std::string_view json);
 

@@ -5,102 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/bspline.h"
+#include "gui/views/curve_values.h"
 #include "gui/views/freedoms.h"
 #include "gui/views/plot_frame.h"
+#include "gui/views/selection_tools.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
 namespace {
 
-struct Curve {
-  std::string name;
-  ImVec4 colour;
-  std::vector<double> times, values;
-  int derivative = 0;
-  bool dotted = false;
-  bool points = false;  // only at these times, nothing between them
-};
-
-constexpr int samples_drawn = 400;
-
-void add_dof(const Ui& ui, const Trajectory& dof, bool ghost, std::vector<Curve>& out) {
-  const double start = std::max(ui.memory.span.from, dof.basis.knots.front());
-  const double end = std::min(ui.memory.span.to, dof.basis.knots.back());
-  for (int d = 0; d <= max_derivative; ++d) {
-    if (!ui.memory.curves.derivative[d]) continue;
-    Curve curve{dof.name, colour_of(ui, dof.name), {}, {}, d, ghost, false};
-    if (ghost) curve.colour.w = 0.45F;
-    std::vector<double> coefficients = dof.coefficients;
-    const CurvesMemory& m = ui.memory.curves;
-    if (!ghost && m.dragged == dof.name && m.dragged_index >= 0)
-      coefficients[static_cast<std::size_t>(m.dragged_index)] = m.dragged_value;
-    for (int k = 0; k <= samples_drawn; ++k) {
-      const double t = start + (end - start) * k / samples_drawn;
-      curve.times.push_back(t);
-      curve.values.push_back(value(dof.basis, coefficients, t, d));
-    }
-    out.push_back(std::move(curve));
-  }
-}
-
-// Differences of samples: what has been sampled is all that is known of an expression here.
-std::vector<double> slopes(const std::vector<double>& times, const std::vector<double>& values) {
-  std::vector<double> out(values.size());
-  const std::size_t last = values.size() - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const std::size_t a = i == 0 ? 0 : i - 1, b = i == last ? last : i + 1;
-    out[i] = (values[b] - values[a]) / (times[b] - times[a]);
-  }
-  return out;
-}
-
-void add_expression(const Ui& ui, const std::string& name, std::vector<Curve>& out) {
-  const auto& samples = ui.state.samples;
-  if (!samples) return;
-  const auto found = samples->values.find(name);
-  if (found == samples->values.end() || samples->times.size() < 3) return;
-  const std::size_t components = found->second.empty() ? 0 : found->second.front().size();
-  for (std::size_t c = 0; c < components; ++c) {
-    Curve curve{name, colour_of(ui, name), samples->times, {}, 0, c > 0, false};
-    if (components > 1) curve.name += fmt::format("[{}]", c + 1);
-    for (const auto& row : found->second) curve.values.push_back(row[c]);
-    for (int d = 0; d <= max_derivative; ++d) {
-      if (d > 0) curve.values = slopes(curve.times, curve.values);
-      curve.derivative = d;
-      if (ui.memory.curves.derivative[d]) out.push_back(curve);
-    }
-  }
-}
-
-std::vector<Curve> curves_of(const Ui& ui) {
-  const State& s = ui.state;
-  std::vector<Curve> out;
-  if (ui.memory.curves.show == CurvesMemory::Show::residuals) {
-    for (std::size_t e = 0; e < ui.residuals().size(); ++e) {
-      const Equation& equation = ui.question().equations[e];
-      if (!s.selection.constraint.empty() && s.selection.constraint != equation.name) continue;
-      Curve curve{equation.name, ui.colours().curves[out.size() % 8], {}, {}, 0, false, true};
-      for (const Residual& r : ui.residuals()[e]) {
-        curve.times.push_back(r.time);
-        curve.values.push_back(r.value);
-      }
-      if (!curve.times.empty()) out.push_back(std::move(curve));
-    }
-    return out;
-  }
-  if (!s.curves) return out;
-  for (const Trajectory& dof : s.curves->dofs) {
-    if (!is_among(s.selection.dofs, dof.name)) continue;
-    add_dof(ui, dof, false, out);
-    if (!s.ghost) continue;
-    const auto before = std::ranges::find(s.ghost->dofs, dof.name, &Trajectory::name);
-    if (before != s.ghost->dofs.end()) add_dof(ui, *before, true, out);
-  }
-  for (const std::string& name : s.selection.expressions) add_expression(ui, name, out);
-  return out;
-}
+constexpr int legend_rows = 2;
 
 void fit(PlotFrame& frame, const std::vector<Curve>& curves) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -119,11 +36,19 @@ void fit(PlotFrame& frame, const std::vector<Curve>& curves) {
   if (high - low < 1e-9) frame.bottom = low - 1, frame.top = high + 1;
 }
 
+void draw_mark(ImDrawList& list, const ImVec2& at, int mark, ImU32 colour, float r) {
+  if (mark == 0) list.AddCircleFilled(at, r, colour);
+  if (mark == 1) list.AddCircle(at, r, colour, 12, 1.5F);
+  if (mark == 2) list.AddRect({at.x - r, at.y - r}, {at.x + r, at.y + r}, colour, 0, 0, 1.5F);
+  if (mark == 3) list.AddQuad({at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, colour, 1.5F);
+}
+
 void draw(ImDrawList& list, const PlotFrame& frame, const Curve& curve, float scale) {
   const float width = scale * (curve.derivative == 0 ? 2.0F : 1.2F);
   if (curve.points) {
     for (std::size_t i = 0; i < curve.times.size(); ++i)
-      list.AddCircleFilled({frame.x(curve.times[i]), frame.y(curve.values[i])}, 2.5F * scale, packed(curve.colour));
+      draw_mark(list, {frame.x(curve.times[i]), frame.y(curve.values[i])}, curve.mark, packed(curve.colour),
+                2.5F * scale);
     return;
   }
   std::vector<ImVec2> points;
@@ -144,6 +69,47 @@ void draw(ImDrawList& list, const PlotFrame& frame, const Curve& curve, float sc
       stroke();
   }
   stroke();
+}
+
+// A point of a curve near the mouse.
+struct Near {
+  const Curve* curve = nullptr;
+  double time = 0, value = 0;
+};
+
+std::optional<Near> nearest(const PlotFrame& frame, const std::vector<Curve>& curves, const ImVec2& mouse,
+                            float reach) {
+  std::optional<Near> best;
+  for (const Curve& curve : curves) {
+    const auto seen = [&](std::size_t i) { return ImVec2{frame.x(curve.times[i]), frame.y(curve.values[i])}; };
+    for (std::size_t i = 0; i < curve.times.size(); ++i) {
+      const std::size_t next = curve.points || i + 1 == curve.times.size() ? i : i + 1;
+      const ImVec2 a = seen(i), b = seen(next);
+      if (b.x < mouse.x - reach || a.x > mouse.x + reach) continue;
+      const float dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
+      const float along =
+          square > 0 ? std::clamp(((mouse.x - a.x) * dx + (mouse.y - a.y) * dy) / square, 0.0F, 1.0F) : 0.0F;
+      const float away = std::hypot(a.x + along * dx - mouse.x, a.y + along * dy - mouse.y);
+      if (!(away < reach)) continue;
+      reach = away;
+      best = Near{&curve, std::lerp(curve.times[i], curve.times[next], static_cast<double>(along)),
+                  std::lerp(curve.values[i], curve.values[next], static_cast<double>(along))};
+    }
+  }
+  return best;
+}
+
+// Which curve it is, when, and how much, beside the point.
+void draw_reading(Ui& ui, ImDrawList& list, const PlotFrame& frame, const Near& near) {
+  CurvesMemory& m = ui.memory.curves;
+  m.reading = fmt::format("{}  {:.4g} s  {}", near.curve->whole, near.time, shown(near.value));
+  const ImVec2 at{frame.x(near.time), frame.y(near.value)}, size = ImGui::CalcTextSize(m.reading.c_str());
+  const float gap = ui.scaled(10), right = frame.corner.x + frame.size.x, bottom = frame.corner.y + frame.size.y;
+  const float x = at.x + gap + size.x + 6 < right ? at.x + gap : at.x - gap - size.x;
+  const float y = std::clamp(at.y - gap - size.y, frame.corner.y + 4, bottom - size.y - 4);
+  list.AddCircleFilled(at, ui.scaled(3.5F), packed(near.curve->colour));
+  list.AddRectFilled({x - 5, y - 2}, {x + size.x + 5, y + size.y + 2}, packed(ui.colours().raised, 0.95F), 4);
+  list.AddText({x, y}, packed(ui.colours().text), m.reading.c_str());
 }
 
 Steering moving(const std::string& dof, int index, double value) {
@@ -188,10 +154,10 @@ bool is_free(const Question& question, const Trajectory& dof, std::size_t i) {
   return knots[i] >= question.window->first && knots[i + 4] <= question.window->second;
 }
 
-// Knots as ticks, and control points as handles.
-void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
+// Knots as ticks, and control points as handles; whether the mouse is at one.
+bool draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame, bool hovered) {
   CurvesMemory& m = ui.memory.curves;
-  const bool hovered = ImGui::IsItemHovered();
+  bool at_one = false;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   for (const Trajectory& dof : ui.state.curves->dofs) {
     if (!is_among(ui.state.selection.dofs, dof.name)) continue;
@@ -213,6 +179,7 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
       list.AddCircleFilled(at, r, packed(hot && free ? ui.colours().text : ui.colours().panel), 12);
       list.AddCircle(at, r, free ? colour : packed(ui.colours().line), 12, 1.5F);
       ui.memory.places[fmt::format("control {} {}", dof.name, i)] = {at.x - 3, at.y - 3, 6, 6};
+      at_one |= hot;
       if (!hot || !m.dragged.empty()) continue;
       ui.help(fmt::format("{} [{}] = {}\n{}", dof.name, i, shown(dof.coefficients[i]),
                           free ? "Drag to move this control point: the figure follows. Solving moves it again."
@@ -222,6 +189,7 @@ void draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame) {
     }
   }
   if (!m.dragged.empty()) drag_control(ui, frame);
+  return at_one;
 }
 
 void fit(Ui& ui) {
@@ -229,34 +197,53 @@ void fit(Ui& ui) {
   fit_time(ui);
 }
 
+void draw_fit(Ui& ui) {
+  if (ImGui::SmallButton("Fit")) fit(ui);
+  ui.here("fit");
+  ui.help(
+      "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
+      "dragging "
+      "with the right button moves.");
+}
+
 void draw_tools(Ui& ui) {
   CurvesMemory& m = ui.memory.curves;
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.scaled(5), ui.scaled(2)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {ui.scaled(3), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(2), 0});
-  if (ImGui::RadioButton("curves", m.show == CurvesMemory::Show::curves)) m.show = CurvesMemory::Show::curves;
-  ui.control("show curves", "Degrees of freedom and expressions over time.");
-  if (ImGui::RadioButton("residuals", m.show == CurvesMemory::Show::residuals)) m.show = CurvesMemory::Show::residuals;
-  ui.control(
-      "residuals",
-      "By how much each constraint is off, at each of its instances. Select one in the equations to see it alone.");
+  using Show = CurvesMemory::Show;
+  const auto choice = [&](const char* name, Show show, const char* help) {
+    if (ImGui::RadioButton(name, m.show == show)) {
+      m.show = show;
+      m.low = m.high = 0;  // other units
+    }
+    ui.here(std::string("show ") + name);
+    ui.help(help);
+  };
+  choice("curves", Show::curves, "Degrees of freedom and expressions, with their derivatives.");
+  choice("residuals", Show::residuals,
+         "By how much each constraint is off, at each of its instances. Select one in the equations to see it alone.");
+  choice("multipliers", Show::multipliers,
+         "What each instance of each constraint costs: the objective falls by so much for each unit by which the "
+         "relation's right side is raised. Of the last whole motion. Select one in the equations to see it alone.");
   if (m.show == CurvesMemory::Show::curves) {
-    ImGui::Checkbox("q", &m.derivative[0]);
-    ui.control("values", "The curves themselves.");
+    const auto toggle = [&](const char* label, bool& on, const char* name, const char* help) {
+      ImGui::Checkbox(label, &on);
+      ui.here(name);
+      ui.help(help);
+    };
+    toggle("q", m.derivative[0], "value", "The values themselves.");
     ImGui::SameLine();
-    ImGui::Checkbox("q'", &m.derivative[1]);
-    ui.control("first derivative", "Their velocities.");
+    toggle("q'", m.derivative[1], "first derivative", "Velocities.");
     ImGui::SameLine();
-    ImGui::Checkbox("q''", &m.derivative[2]);
-    ui.control("second derivative", "Their accelerations.");
-    ImGui::Checkbox("controls", &m.controls);
-    ui.control("controls", "Coefficients, which can be dragged.");
+    toggle("q''", m.derivative[2], "second derivative", "Accelerations.");
+    toggle("controls", m.controls, "controls", "Control points of degrees of freedom, to be dragged.");
+    ImGui::SameLine();
+    draw_fit(ui);
+    draw_selection_tools(ui);
+  } else {
+    draw_fit(ui);
   }
-  if (ImGui::SmallButton("Fit")) fit(ui);
-  ui.control("fit",
-             "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
-             "dragging "
-             "with the right button moves.");
   ImGui::PopStyleVar(3);
 }
 
@@ -277,6 +264,47 @@ void zoom(Ui& ui, const PlotFrame& frame) {
   if (ImGui::IsMouseDoubleClicked(0)) fit(ui);
 }
 
+// Names in the upper rows of the plot; whether the mouse is over one.  A click selects what it names.
+bool draw_names(Ui& ui, ImDrawList& list, const PlotFrame& frame, const std::vector<Curve>& curves, bool hovered) {
+  std::vector<Name> names;
+  std::vector<const Curve*> of;
+  for (const Curve& curve : curves) {
+    if (std::ranges::find(names, curve.name, &Name::text) != names.end()) continue;
+    names.push_back({curve.name, curve.colour});
+    of.push_back(&curve);
+  }
+  const ImVec2 corner{frame.corner.x + 8, frame.corner.y + 3};
+  const Legend legend = arrange(names, corner, frame.size.x - 16, legend_rows, ui.scaled(14));
+  draw(list, legend, names, ui.colours(), true);
+  for (std::size_t i = 0; i < legend.places.size(); ++i) {
+    const auto& [low, size] = legend.places[i];
+    const bool number = legend.left_out > 0 && i + 1 == legend.places.size();
+    ui.memory.places[number ? "legend more" : "legend " + names[i].text] = {low.x, low.y, size.x, size.y};
+  }
+  const int at = hovered && ui.memory.curves.dragged.empty() ? legend.at(ImGui::GetIO().MousePos) : -1;
+  if (at < 0) return false;
+  const auto index = static_cast<std::size_t>(at);
+  if (legend.left_out > 0 && index + 1 == legend.places.size()) {
+    std::string rest;
+    for (std::size_t i = index; i < names.size(); ++i) rest += (rest.empty() ? "" : "\n") + names[i].text;
+    ui.help(rest.c_str());
+    return true;
+  }
+  const Curve& curve = *of[index];
+  const bool dof = ui.memory.curves.show == CurvesMemory::Show::curves && is_among(ui.state.selection.dofs, curve.of);
+  const bool constraint = ui.memory.curves.show != CurvesMemory::Show::curves;
+  if (dof) ui.help("Click to select it alone; Ctrl+click to leave it out.");
+  if (constraint) ui.help("Click to see this constraint alone, and again to see all.");
+  if (!ImGui::IsMouseClicked(0)) return true;
+  if (dof) select_dof(ui, curve.of);
+  if (constraint) {
+    Selection selection = ui.state.selection;
+    selection.constraint = selection.constraint == curve.of ? "" : curve.of;
+    ui.emit(Select{selection});
+  }
+  return true;
+}
+
 }  // namespace
 
 void draw_curves(Ui& ui, const TimeAxis& axis) {
@@ -289,31 +317,28 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
   ImGui::SetCursorScreenPos({axis.left, at.y + 4});
   ImGui::InvisibleButton("curves", {axis.right - axis.left, height - below - 6});
   ui.here("curves");
-  const auto curves = curves_of(ui);
+  const auto curves = curves_shown(ui);
   const State& s = ui.state;
   PlotFrame frame{{axis.left, at.y + 4}, {axis.right - axis.left, height - below - 6}, axis.from, axis.to, 0, 1};
   fit(frame, curves);
   CurvesMemory& m = ui.memory.curves;
   if (m.high > m.low) frame.bottom = m.low, frame.top = m.high;
-  if (ImGui::IsItemHovered()) zoom(ui, frame);
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered) zoom(ui, frame);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_scales(list, frame, ui.colours());
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
   for (const Curve& curve : curves) draw(list, frame, curve, ui.memory.scale);
-  if (s.curves && m.show == CurvesMemory::Show::curves) draw_controls(ui, list, frame);
-  list.PopClipRect();
-  float x = frame.corner.x + 8;
-  std::string named;
-  for (const Curve& curve : curves) {
-    if (curve.name == named) continue;
-    named = curve.name;
-    list.AddText({x, frame.corner.y + 3}, packed(curve.colour), named.c_str());
-    x += ImGui::CalcTextSize(named.c_str()).x + 12;
+  const bool over_names = draw_names(ui, list, frame, curves, hovered);
+  bool busy = over_names;
+  if (s.curves && m.show == CurvesMemory::Show::curves) busy |= draw_controls(ui, list, frame, hovered && !over_names);
+  m.reading.clear();
+  if (hovered && !busy) {
+    if (const auto near = nearest(frame, curves, ImGui::GetIO().MousePos, ui.scaled(9)))
+      draw_reading(ui, list, frame, *near);
   }
-  if (curves.empty())
-    list.AddText({x, frame.corner.y + 6}, packed(ui.colours().faint),
-                 m.show == CurvesMemory::Show::curves ? "Select degrees of freedom or expressions to see their curves."
-                                                      : "No constraint has instances in time.");
+  list.PopClipRect();
+  if (curves.empty()) list.AddText({frame.corner.x + 8, frame.corner.y + 6}, packed(ui.colours().faint), why_none(ui));
 }
 
 }  // namespace spacetime::gui

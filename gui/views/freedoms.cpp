@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/bspline.h"
+#include "gui/views/selection_tools.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
@@ -40,10 +41,6 @@ void draw_bounds(Ui& ui, const Freedom& dof) {
 void draw_menu(Ui& ui, const Freedom& dof) {
   if (!ImGui::BeginPopupContextItem(("menu " + dof.name).c_str())) return;
   ImGui::TextDisabled("%s", dof.name.c_str());
-  if (ImGui::MenuItem("Smooth", "filter")) ui.act(filter_words(0.5, {dof.name}).line);
-  ui.control("smooth dof", "Damps what is rough in its curve.");
-  if (ImGui::MenuItem("Shake", "shake")) ui.act("shake amplitude 0.1 of " + dof.name);
-  ui.control("shake dof", "Disturbs its curve, to leave a local minimum.");
   if (ImGui::MenuItem("Refine", "refine")) ui.act("refine of " + dof.name);
   ui.control("refine dof", "Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
   if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act(damp_words(0.1, {dof.name}).line);
@@ -145,12 +142,11 @@ void draw_freedoms(Ui& ui) {
       ui.control("free " + dof.name, "In the window: the optimiser may change it.");
       ImGui::TableNextColumn();
       if (draw_shown(ui, dof.name, dof.name, is_among(s.selection.dofs, dof.name))) {
-        Selection selection = s.selection;
-        toggle(selection.dofs, dof.name);
-        ui.emit(Select{selection});
+        select_dof(ui, dof.name);
       }
       ui.control("dof " + dof.name,
-                 "Click to show its curve; right button to smooth, shake, refine, damp or bound it.");
+                 "Click to select it and show its curve, with Ctrl beside others; right button to refine, damp or bound it. "
+                 "What is selected is smoothed and shaken beside the curves.");
       draw_menu(ui, dof);
       ImGui::TableNextColumn();
       if (s.curves) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "gui/views/plot_frame.h"
 #include "gui/words.h"
@@ -42,41 +45,116 @@ void draw_choices(Ui& ui) {
   ImGui::EndTable();
 }
 
-void draw_convergence(Ui& ui) {
-  const auto& record = ui.state.record;
+// A measure by iteration.
+struct Course {
+  Name name;
+  float width = 1.6F;
+  std::vector<double> values;  // one a record; no number where it is not known
+};
+
+std::vector<Course> convergence(const Ui& ui, const std::vector<IterationRecord>& record) {
+  Course violation{{"violation", ui.colours().curves[0]}}, gradient{{"gradient", ui.colours().curves[1]}};
+  for (const IterationRecord& r : record) {
+    violation.values.push_back(r.violation);
+    gradient.values.push_back(r.stationarity);
+  }
+  return {gradient, violation};
+}
+
+// Terms that have come or gone meanwhile are drawn as far as there are any.
+std::vector<Course> objective(const Ui& ui, const std::vector<IterationRecord>& record) {
+  std::vector<Course> out{{{"objective", ui.colours().text}, 2.2F}};
+  for (const auto& [name, value] : record.back().terms)
+    out.push_back({{name, ui.colours().curves[(out.size() - 1) % ui.colours().curves.size()]}});
+  if (out.size() == 2) out.pop_back();  // the objective itself
+  for (const IterationRecord& r : record) {
+    out.front().values.push_back(r.objective);
+    for (std::size_t k = 1; k < out.size(); ++k) {
+      const auto term = std::ranges::find(r.terms, out[k].name.text, &std::pair<std::string, double>::first);
+      out[k].values.push_back(term == r.terms.end() ? std::nan("") : term->second);
+    }
+  }
+  return out;
+}
+
+constexpr double powers_worth = 30;  // numbers that lie further apart than this are drawn by their powers of ten
+constexpr double most_powers = 9;
+
+// What the vertical scale has to span; whether by powers of ten.
+bool fit(PlotFrame& frame, const std::vector<Course>& courses, bool powers) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
+  for (const Course& course : courses) {
+    for (const double v : course.values) {
+      if (!std::isfinite(v)) continue;
+      low = std::min(low, v);
+      high = std::max(high, v);
+      if (v > 0) least = std::min(least, v);
+    }
+  }
+  if (!(low <= high)) return powers;
+  powers = powers || (low >= 0 && high > powers_worth * least);
+  if (powers) {
+    frame.top = high > 0 ? std::ceil(std::log10(high) + 0.1) : 1;
+    frame.bottom = std::min(frame.top - 1, std::max(frame.top - most_powers, std::floor(std::log10(least) - 0.1)));
+    return true;
+  }
+  const double room = std::max(0.08 * (high - low), 1e-9 * std::max(1.0, std::abs(high)));
+  frame.bottom = low - room;
+  frame.top = high + room;
+  return false;
+}
+
+void draw(ImDrawList& list, const PlotFrame& frame, const Course& course, const std::vector<IterationRecord>& record,
+          bool powers, float scale) {
+  list.PathClear();
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const double v = course.values[i];
+    if (!std::isfinite(v)) continue;
+    list.PathLineTo({frame.x(record[i].iteration), frame.y(powers ? std::log10(std::max(v, 1e-20)) : v)});
+  }
+  list.PathStroke(packed(course.name.colour), 0, course.width * scale);
+}
+
+void draw_by_iteration(Ui& ui) {
+  const auto& record = ui.state.record.iterations;
+  bool& by_objective = ui.memory.objective_by_iteration;
+  if (ImGui::RadioButton("Convergence", !by_objective)) by_objective = false;
+  ui.here("by convergence");
+  ui.help("The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
+  ImGui::SameLine();
+  if (ImGui::RadioButton("Objective", by_objective)) by_objective = true;
+  ui.here("by objective");
+  ui.help("What is minimised and the terms that it is the sum of, by iteration.");
+
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.scaled(120);
   const float margin = ui.scaled(44), below = ImGui::GetFontSize() + 6;
   ImGui::Dummy({width, height});
-  ui.control("convergence", "The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
-  PlotFrame frame{{at.x + margin, at.y + 4}, {width - margin - 6, height - below - 4}, 0, 10, -9, 1};
+  ui.here("by iteration");
+  ui.help("A solve begins anew, unless it goes on where the last one ended. Thin lines: edits while it ran.");
+  PlotFrame frame{
+      {at.x + margin, at.y + 4}, {width - margin - 6, height - below - 4}, 0, 10, by_objective ? 0.0 : -9, 1};
   if (!record.empty()) {
     frame.left = record.front().iteration;
     frame.right = std::max(frame.left + 10.0, static_cast<double>(record.back().iteration));
-    double highest = -8;
-    for (const auto& r : record)
-      for (const double v : {r.violation, r.stationarity})
-        if (v > 0 && std::isfinite(v)) highest = std::max(highest, std::log10(v));
-    frame.top = std::ceil(highest + 0.1);
   }
-  draw_scales(list, frame, ui.colours(), true);
+  std::vector<Course> courses;
+  if (!record.empty()) courses = by_objective ? objective(ui, record) : convergence(ui, record);
+  const bool powers = fit(frame, courses, !by_objective);
+  draw_scales(list, frame, ui.colours(), powers);
   ImGui::PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
-  const auto curve = [&](double IterationRecord::*measure, const ImVec4& colour) {
-    list.PathClear();
-    for (const auto& r : record) {
-      const double v = r.*measure;
-      if (!std::isfinite(v)) continue;
-      list.PathLineTo({frame.x(r.iteration), frame.y(std::log10(std::max(v, 1e-20)))});
-    }
-    list.PathStroke(packed(colour), 0, ui.scaled(1.6F));
-  };
-  curve(&IterationRecord::stationarity, ui.colours().curves[1]);
-  curve(&IterationRecord::violation, ui.colours().curves[0]);
+  for (const int edit : ui.state.record.edits)
+    list.AddLine({frame.x(edit), frame.corner.y}, {frame.x(edit), frame.corner.y + frame.size.y},
+                 packed(ui.colours().accent, 0.6F), 1);
+  for (std::size_t i = courses.size(); i-- > 0;) draw(list, frame, courses[i], record, powers, ui.memory.scale);
   ImGui::PopClipRect();
-  ImGui::TextColored(ui.colours().curves[0], "violation");
-  ImGui::SameLine();
-  ImGui::TextColored(ui.colours().curves[1], "gradient");
+  std::vector<Name> names;
+  for (const Course& course : courses) names.push_back(course.name);
+  const Legend legend = arrange(names, ImGui::GetCursorScreenPos(), width, 2, ui.scaled(14));
+  draw(list, legend, names, ui.colours(), false);
+  ImGui::Dummy({width, std::max(legend.height, ImGui::GetFontSize())});
+  ui.here("by iteration names");
 }
 
 void draw_terms(Ui& ui) {
@@ -119,10 +197,11 @@ void draw_optimisation(Ui& ui) {
     ImGui::TextColored(ui.colours().accent, "Following the drag");
   } else if (s.running) {
     ImGui::TextColored(ui.colours().accent, s.stopping ? "Stopping" : "Solving");
-    if (!s.record.empty()) {
+    if (!s.record.iterations.empty()) {
+      const IterationRecord& newest = s.record.iterations.back();
       ImGui::SameLine();
-      ImGui::TextDisabled("iteration %d, objective %s", s.record.back().iteration,
-                          shown(s.record.back().objective).c_str());
+      ImGui::TextDisabled("iteration %d, objective %s", newest.iteration, shown(newest.objective).c_str());
+      ui.here("iterations");
     }
   } else if (s.motion && s.motion->iterations > 0) {
     const Status status = s.motion->status;
@@ -137,7 +216,7 @@ void draw_optimisation(Ui& ui) {
   } else {
     ImGui::TextDisabled("Not solved yet: press Run.");
   }
-  draw_convergence(ui);
+  draw_by_iteration(ui);
   draw_terms(ui);
 }
 

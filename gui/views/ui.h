@@ -28,11 +28,12 @@ struct CurvesMemory {
   double low = 0, high = 0;  // shown; equal: fitted
   bool derivative[3]{true, false, false};
   bool controls = true, knots = true;
-  enum class Show { curves, residuals } show = Show::curves;
+  enum class Show { curves, residuals, multipliers } show = Show::curves;
   std::string dragged;  // degree of freedom of the control point that is being dragged
   int dragged_index = -1;
   double dragged_value = 0;
-  bool held = false;  // what is shown stays while a control point is dragged, though it was fitted
+  std::string reading;  // what is told of the curve that the mouse is near
+  bool held = false;    // what is shown stays while a control point is dragged, though it was fitted
 };
 
 struct SceneMemory {
@@ -48,6 +49,11 @@ struct SceneMemory {
 struct BarMemory {
   std::string dragged;   // the bar of which an end is held; one mouse, one drag
   double ends[2]{0, 0};  // s, of it
+};
+
+struct SelectionToolsMemory {
+  double strength = 0.5, amplitude = 0.1;  // of a filter, s; of a shake
+  int seed = 1;
 };
 
 struct SpanMemory {
@@ -95,6 +101,7 @@ struct Memory {
   BarMemory bar;
   KeyMemory key;
   SpanMemory span;
+  SelectionToolsMemory selection_tools;
   FilesMemory files;
   std::set<std::string> told;                   // the notices that were shown in the last frame
   std::set<std::string> focused_drafts;         // the keyboard has been given to them
@@ -107,7 +114,8 @@ struct Memory {
   bool discard = false;            // ... and what is not saved is to be thrown away
   std::optional<Leaving> leaving;  // once the person has decided about unsaved changes
   std::string console, console_by;
-  int scroll_to_line = 0;  // in the scene text
+  int scroll_to_line = 0;               // in the scene text
+  bool objective_by_iteration = false;  // rather than how far it is from converged
   int method = 0;
   double tolerance = 1e-8;
   int starts = 1;

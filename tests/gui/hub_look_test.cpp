@@ -1,4 +1,6 @@
 // How the session is looked at: notices, samples, poses, playback.
+#include <cmath>
+
 #include "tests/gui/table.h"
 
 namespace spacetime::gui {
@@ -44,7 +46,56 @@ TEST(Update, ASamplesAnswerIsAwaitedBeforeTheNextIsAsked) {
     table.feed(Tick{0.1});
   }
   EXPECT_EQ(table.count("sample"), 1);
-  EXPECT_EQ(table.state.record.size(), 99U);
+  EXPECT_EQ(table.state.record.iterations.size(), 100U);  // with where it began
+}
+
+// A run that goes on where the last one ended continues its plot; one after an edit begins another, and going back in
+// the log brings the plot of that time back.
+TEST(Update, TheRecordIsOfTheLastRun) {
+  Table table;
+  table.open();
+  const auto numbers = [&] {
+    std::vector<int> all;
+    for (const IterationRecord& record : table.state.record.iterations) all.push_back(record.iteration);
+    return all;
+  };
+  const auto run = [&](std::vector<int> iterations) {
+    const Request request = table.solve();
+    for (const int i : iterations) {
+      IterationRecord record;
+      record.iteration = i;
+      table.feed(Iterated{request.number, {record}, {}, {}});
+    }
+    const std::string count = std::to_string(iterations.size());
+    table.done(request, {{R"({"action":"iterate","iterations":)" + count + "}", "iterate " + count}}, true);
+    table.reach(iterations.back());
+  };
+  run({1, 2});
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 1, 2}));
+  run({3});
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 1, 2, 3}));
+  table.set();
+  table.reach(3);
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 1, 2, 3}));  // to be looked at until there is another
+  run({4, 5});
+  EXPECT_EQ(numbers(), (std::vector<int>{3, 4, 5}));
+  EXPECT_TRUE(std::isnan(table.state.record.iterations.front().stationarity));
+  table.feed(GoTo{1});
+  EXPECT_EQ(numbers(), (std::vector<int>{0, 1, 2}));
+  table.feed(GoTo{4});
+  EXPECT_EQ(numbers(), (std::vector<int>{3, 4, 5}));
+}
+
+TEST(Update, AnEditDuringARunIsMarkedInItsRecord) {
+  Table table;
+  table.open();
+  const Request run = table.solve();
+  IterationRecord record;
+  record.iteration = 7;
+  table.feed(Iterated{run.number, {record}, {}, {}});
+  table.set();
+  EXPECT_EQ(table.state.record.edits, std::vector<int>{7});
+  EXPECT_EQ(table.state.record.iterations.size(), 2U);
 }
 
 TEST(Update, PosesAreCopiedMirroredAndKeyed) {

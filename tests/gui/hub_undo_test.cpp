@@ -64,7 +64,7 @@ TEST(Update, UndoDuringARunKeepsItsOutcomeToBeRedone) {
   IterationRecord record;
   record.iteration = 9;
   table.feed(Iterated{run.number, {record}, {}, {}});
-  EXPECT_TRUE(table.state.record.empty());  // it is not looked at any more
+  EXPECT_TRUE(table.state.record.iterations.empty());  // it is not looked at any more
   table.done(run, {{R"({"action":"iterate","iterations":9})", "iterate 9"}}, true);
   EXPECT_EQ(table.state.present, 0);
   EXPECT_EQ(text_of(table.state), "time\n");

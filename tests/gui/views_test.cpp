@@ -37,7 +37,7 @@ State solved(const std::string& name) {
   state.motion = std::make_shared<Motion>(motion);
   state.curves = std::make_shared<Curves>(Curves{motion.dofs, motion.constants, motion.parameters});
   state.samples = std::make_shared<Samples>(*motion.samples);
-  state.record = motion.record;
+  state.record = {motion.record, {20}};
   state.file = "throw.scene";
   state.symbolic.condition = state.optimizer.condition = Daemon::Condition::ready;
   for (const Dof& dof : state.scene->problem->dofs) state.selection.dofs.push_back(dof.name);

@@ -359,5 +359,97 @@ TEST(Window, AControlPointIsDraggedWithTheFigure) {
   EXPECT_EQ(d.state().present, present + 1);
 }
 
+// What constraints cost, instance by instance, after a solve.
+TEST(Window, MultipliersAreShownOverTime) {
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.click("run");
+  d.settle();
+  d.click("show multipliers");
+  d.frame(2);
+  EXPECT_TRUE(d.has("legend rest[1]"));
+  EXPECT_TRUE(d.has("legend held[2]"));
+  const auto& all = d.state().motion->multipliers;
+  const auto held = std::ranges::find(all, "held", &Multipliers::name);
+  ASSERT_NE(held, all.end());
+  EXPECT_EQ(held->times.size(), 12U);
+  EXPECT_EQ(held->values.front().size(), 2U);
+  d.save_picture("curves-multipliers.png");
+  d.click("legend flight[1]");  // alone
+  EXPECT_FALSE(d.has("legend held[2]"));
+  EXPECT_EQ(d.state().selection.constraint, "flight");
+  d.frame(2);
+  d.save_picture("curves-multipliers-alone.png");
+
+  // By iteration: the objective and its terms, all iterations whoever was too slow to see them.
+  d.click("by objective");
+  EXPECT_EQ(d.state().record.iterations.front().iteration, 0);
+  EXPECT_EQ(d.state().record.iterations.size(), static_cast<std::size_t>(d.state().motion->iterations) + 1);
+  EXPECT_EQ(d.state().record.iterations.back().terms.front().first, "energy");
+  EXPECT_EQ(d.state().record.iterations.back().objective, d.state().motion->objective);
+  d.save_picture("objective.png");
+}
+
+// Names select degrees of freedom; what is selected is filtered and shaken, and so it is in a batch.
+TEST(Window, TwoDegreesOfFreedomAreFilteredAndShaken) {
+  Driver d(daemons(), 1280, 800);
+  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.click("run");
+  d.settle();
+  d.click("tab Freedom");
+  d.frame(2);
+  d.click("dof arm.elbow");
+  EXPECT_EQ(d.state().selection.dofs, std::vector<std::string>{"arm.elbow"});
+  d.screen().key(GLFW_KEY_LEFT_CONTROL, true);
+  d.click("dof arm.wrist");
+  d.screen().key(GLFW_KEY_LEFT_CONTROL, false);
+  d.frame(2);
+  EXPECT_EQ(d.state().selection.dofs, (std::vector<std::string>{"arm.elbow", "arm.wrist"}));
+  d.click("open filter");
+  d.frame(2);
+  d.save_picture("filter.png");
+  d.click("filter");
+  d.settle();
+  EXPECT_EQ(d.state().log.back().text, "filter strength 0.5 of arm.elbow, arm.wrist");
+  d.click("open shake");
+  d.frame(2);
+  d.save_picture("shake.png");
+  d.click("shake");
+  d.settle();
+  EXPECT_EQ(d.state().log.back().text, "shake amplitude 0.1 seed 1 of arm.elbow, arm.wrist");
+  EXPECT_EQ(batch_curves(text_of(d.state())), present_curves(d.state()));
+  d.click("legend arm.wrist");
+  EXPECT_EQ(d.state().selection.dofs, std::vector<std::string>{"arm.wrist"});
+}
+
+// The curve that the mouse is near says what it is; many names do not run out of the plot.
+TEST(Window, CurvesAreReadAndNamed) {
+  Driver d(daemons(), 1280, 800);
+  std::string scene = "time [0, 2]\ntrajectory bspline spans 8\n";
+  for (int i = 0; i < 60; ++i) scene += "dof quite_a_long_name_" + std::to_string(i) + " = " + std::to_string(i) + "\n";
+  d.hub().post(gui::OpenText{scene});
+  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.settle();
+  gui::Selection selection;
+  for (const Trajectory& dof : d.state().curves->dofs) selection.dofs.push_back(dof.name);
+  d.hub().post(gui::Select{selection});
+  d.frame(3);
+  d.save_picture("curves-many.png");
+  ASSERT_TRUE(d.has("legend more"));
+  const gui::Rect plot = d.place("curves"), more = d.place("legend more");
+  EXPECT_LE(more.x + more.width, plot.x + plot.width);
+  selection.dofs = {"quite_a_long_name_7"};
+  d.hub().post(gui::Select{selection});
+  d.frame(2);
+  EXPECT_FALSE(d.has("legend more"));
+  EXPECT_TRUE(d.screen().memory().curves.reading.empty());
+  d.screen().move(plot.x + plot.width * 0.3F, plot.y + plot.height / 2 + 2);  // a constant in the middle of the plot
+  d.frame(2);
+  EXPECT_EQ(d.screen().memory().curves.reading, "quite_a_long_name_7  0.6 s  7");
+  d.save_picture("curves-read.png");
+}
+
 }  // namespace
 }  // namespace spacetime::test

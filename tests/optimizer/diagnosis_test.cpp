@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "optimizer/session.h"
 #include "tests/optimizer/scenes.h"
 
 namespace spacetime::optimizer {
@@ -215,6 +216,33 @@ TEST(Multipliers, ArePricesOfOneUnit) {
   EXPECT_NEAR(limit.multiplier->value, -(solved(1, 1.4 + small).objective - motion.objective) / small, 1e-2);
   EXPECT_GT(limit.multiplier->value, 1);
   EXPECT_EQ(limit.multiplier->time, 0.5);
+}
+
+// Each instance has its own, component by component; the largest of them is the one that the violations tell.
+TEST(Multipliers, OfEveryInstanceAndComponent) {
+  Session session(
+      problem_of("time [0, 1]\ntrajectory bspline spans 16\ndof x\ndof y in [-3, 3]\n"
+                 "constrain ends: (x, y) = (t, 2*t) at 0, 1\nconstrain lot: integral(x) = 0.6\n"
+                 "minimize integral(x''^2 + y''^2)\n"));
+  session.perform(Solve{});
+  const Motion motion = session.motion();
+  ASSERT_EQ(motion.status, Status::converged) << motion.message;
+  const auto all = session.multipliers();
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].name, "ends");
+  EXPECT_EQ(all[0].times, (std::vector<double>{0, 1}));
+  ASSERT_EQ(all[0].values.size(), 2U);
+  ASSERT_EQ(all[0].values[0].size(), 2U);
+  EXPECT_GT(std::abs(all[0].values[0][0]), 1e-3);  // x is bent to have its integral
+  EXPECT_NEAR(all[0].values[0][1], 0, 1e-6);       // y goes straight
+  EXPECT_EQ(all[1].name, "lot");
+  EXPECT_TRUE(all[1].times.empty());
+  ASSERT_EQ(all[1].values.size(), 1U);
+  EXPECT_EQ(all[2].name, "y");
+  EXPECT_EQ(all[2].times.size(), 19U);
+  EXPECT_EQ(motion.violations[1].multiplier->value, all[1].values[0][0]);
+  EXPECT_EQ(std::abs(motion.violations[0].multiplier->value),
+            std::max(std::abs(all[0].values[0][0]), std::abs(all[0].values[1][0])));
 }
 
 TEST(Multipliers, OfBoundsAndNoneWhereNothingCanHold) {

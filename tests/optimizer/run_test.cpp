@@ -311,6 +311,30 @@ TEST(Run, ProgressTellsEveryIteration) {
   EXPECT_NEAR(lines.back().objective, motion.objective, 1e-12 * motion.objective);
 }
 
+// What the objective is the sum of is told with each iteration, soft constraints and what lies outside a window too.
+TEST(Run, ProgressTellsTheTerms) {
+  const std::string text =
+      "time [0, 1]\ntrajectory bspline spans 12\ndof x\nconstrain start: x = 0 at 0\n"
+      "constrain near: x = 1 at 0.5, 1 weight 30\nminimize effort: integral(x''^2)\nminimize calm: integral(x'^2)\n"
+      "iterate 1\ncontrol x 3 = 0.7\nwindow [0.4, 1]\nsolve\n";
+  RunOptions options;
+  options.record = true;
+  const Motion motion = run_scene(text, options);
+  EXPECT_EQ(motion.status, Status::converged) << motion.message;
+  ASSERT_GE(motion.record.size(), 2U);
+  for (const IterationRecord& record : motion.record) {
+    ASSERT_EQ(record.terms.size(), 3U);
+    EXPECT_EQ(record.terms[2].first, "near");
+    double sum = 0;
+    for (const auto& [name, value] : record.terms) sum += value;
+    EXPECT_NEAR(sum, record.objective, 1e-9 * std::max(1.0, std::abs(sum)));
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(motion.record.back().terms[k].first, motion.terms[k].first);
+    EXPECT_NEAR(motion.record.back().terms[k].second, motion.terms[k].second, 1e-9);
+  }
+}
+
 Motion without_seconds(Motion motion) {
   motion.seconds = {};
   return motion;

@@ -52,7 +52,7 @@ TEST(Summary, NamesTheWorstFirst) {
 }
 
 TEST(Summary, OneLineAnIteration) {
-  const std::string text = line({7, 12.5, 1e-3, 2e-4, 0.6, 0.01, 0.25});
+  const std::string text = line({7, 12.5, {}, 1e-3, 2e-4, 0.6, 0.01, 0.25});
   for (const char* part : {"7", "12.5", "1.00e-03", "2.00e-04", "6.00e-01"}) EXPECT_TRUE(contains(text, part)) << text;
   EXPECT_EQ(text.back(), '\n');
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);

@@ -267,7 +267,9 @@ Motion rich_motion() {
                  {"ball.X", {{0, 0, 0, 0, 2, 2, 2, 2}}, {1, 2, 3, 4}}};
   motion.constants = {{"release", 1}, {"g", 9.81}};
   motion.parameters = {{"speed", 2.5}, {"aim", -0.125}};
-  motion.record = {{0, 7.5, 0.25, 1, 0, 0, 0.03125}, {1, 5.596, 3e-12, 4e-9, 0.5, 1e-3, 0.25}};
+  motion.record = {{0, 7.5, {{"energy", 7}, {"calm", 0.5}}, 0.25, 1, 0, 0, 0.03125},
+                   {1, 5.596, {{"energy", 5.5}, {"calm", 0.096}}, 3e-12, 4e-9, 0.5, 1e-3, 0.25}};
+  motion.multipliers = {{"goal", 27, {0.5, 1.6}, {{1, -4.5}, {0, 2}}}, {"total", 12, {}, {{0.25}}}};
   motion.samples = Samples{{0, 1, 2},
                            {{"hand", {{1, 2}, {3, 4}, {5, 6}}}, {"swing", {{0}, {0.5}, {1}}}},
                            {{"upper", std::vector<std::vector<double>>(3, std::vector<double>(12, 0.5))}}};
@@ -289,7 +291,7 @@ Motion rich_motion() {
   checkpoint.start = {{motion.dofs[1]}, {{"speed", 2}}};
   checkpoint.judged = true;
   checkpoint.functionals = {5.5, -0.5};
-  checkpoint.outside = {0.75, {0.5, 0}};
+  checkpoint.outside = {0.75, {0.5, 0.25}, {0.5, 0}};
   checkpoint.step = 0.25;
   checkpoint.last_shift = 1e-3;
   checkpoint.pivoted = 1;

@@ -58,6 +58,7 @@ Numbers numbers_of(Motion& motion) {
            {"/samples/values/hand/2/1", &motion.samples->values["hand"][2][1]},
            {"/samples/poses/upper/1/11", &motion.samples->poses["upper"][1][11]},
            {"/record/1/objective", &record.objective},
+           {"/record/1/terms/calm", &record.terms[1].second},
            {"/record/1/violation", &record.violation},
            {"/record/1/stationarity", &record.stationarity}},
           {{"/time/1", &motion.end},
@@ -70,6 +71,8 @@ Numbers numbers_of(Motion& motion) {
            {"/constants/g", &motion.constants[1].second},
            {"/parameters/aim", &motion.parameters[1].second},
            {"/samples/times/1", &motion.samples->times[1]},
+           {"/multipliers/0/times/1", &motion.multipliers[0].times[1]},
+           {"/multipliers/0/values/1/0", &motion.multipliers[0].values[1][0]},
            {"/record/1/step", &record.step},
            {"/record/1/shift", &record.shift},
            {"/record/1/seconds", &record.seconds}}};
@@ -117,6 +120,7 @@ TEST(MotionDocument, LacksMeasuresOnlyWhereTheMotionFailed) {
 TEST(MotionDocument, HasTheAgreedMembers) {
   auto motion = examples::rich_motion();
   motion.samples.reset();
+  motion.multipliers.clear();
   motion.record.clear();
   motion.bodies.clear();
   motion.programs.clear();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,7 +27,7 @@ Checkpoint random_checkpoint(std::mt19937& random, const Motion& motion) {
   if (coin(random)) checkpoint.start = {motion.dofs, motion.parameters};
   checkpoint.judged = coin(random);
   checkpoint.functionals = list(value);
-  if (coin(random)) checkpoint.outside = {value(), list(value)};
+  if (coin(random)) checkpoint.outside = {value(), list(value), list(value)};
   checkpoint.step = value();
   checkpoint.last_shift = value();
   checkpoint.pivoted = below(random, 9);
@@ -65,6 +66,13 @@ Motion random_motion(std::uint32_t seed) {
     motion.violations.push_back({random_name(random, "constraint ", i), value(), {}, below(random, 3)});
     if (coin(random)) motion.violations.back().time = value();
   }
+  for (std::size_t i = 0; i < random() % 3; ++i) {
+    Multipliers cost{random_name(random, "constraint ", i), below(random, 3), {}, {}};
+    for (int k = below(random, 4); k > 0; --k) cost.times.push_back(value());
+    const std::size_t components = 1 + random() % 3, rows = std::max<std::size_t>(cost.times.size(), 1);
+    for (std::size_t k = 0; k < rows; ++k) std::ranges::generate(cost.values.emplace_back(components), value);
+    motion.multipliers.push_back(std::move(cost));
+  }
   for (std::size_t i = 0; i < random() % 4; ++i) {
     Trajectory dof{random_name(random, "q", i), {random_knots(random, motion.start, motion.end)}, {}};
     for (int k = 0; k < dof.basis.size(); ++k) dof.coefficients.push_back(value());
@@ -73,7 +81,9 @@ Motion random_motion(std::uint32_t seed) {
   for (std::size_t i = 0; i < random() % 9; ++i) motion.constants.emplace_back(random_name(random, "c", i), value());
   for (std::size_t i = 0; i < random() % 3; ++i) motion.parameters.emplace_back(random_name(random, "p", i), value());
   for (int i = below(random, 4); i > 0; --i) {
-    motion.record.push_back({below(random, 1000), value(), value(), value(), value(), value(), value()});
+    motion.record.push_back({below(random, 1000), value(), {}, value(), value(), value(), value(), value()});
+    for (int k = below(random, 3); k > 0; --k)
+      motion.record.back().terms.emplace_back("term " + std::to_string(k), value());
   }
   for (int i = below(random, 3); i > 0; --i) motion.minima.push_back({value(), {below(random, 9), 7}, motion.dofs});
   if (!motion.dofs.empty() && coin(random)) {

@@ -94,13 +94,22 @@ TEST(Client, AsksAndIsAnswered) {
   EXPECT_EQ(answer(client, "motion/get", Json::object()).error["code"], static_cast<int>(Code::no_problem));
   result(client, "problem/load", {{"problem", problem()}});
   std::atomic<int> iterates = 0;
+  int told = 0;
   const Json action{{"action", "solve"}};
   const Reply outcome = answer(client, "action/do", {{"action", action}}, [&](const Json& value) {
     EXPECT_EQ(value["kind"], "iteration");
+    for (const Json& one : value["record"]) EXPECT_EQ(one["iteration"], ++told);
+    EXPECT_EQ(value["record"].back()["iteration"], value["iteration"]);
+    EXPECT_EQ(value["record"].back()["terms"]["effort"], value["objective"]);
     ++iterates;
   });
   EXPECT_EQ(outcome.result["status"], "converged");
   EXPECT_GT(iterates, 0);
+  EXPECT_FALSE(result(client, "motion/get").at("motion").contains("multipliers"));
+  const Json multipliers = result(client, "motion/get", {{"multipliers", true}}).at("motion").at("multipliers");
+  EXPECT_EQ(multipliers.back().at("name"), "still");
+  EXPECT_EQ(multipliers.back().at("times"), Json::array({2}));
+  EXPECT_EQ(multipliers.back().at("values").size(), 1U);
 }
 
 TEST(Client, GivesUpOnAProgramThatIsNotThere) {
