@@ -1,6 +1,7 @@
 #include "gui/replies.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "gui/words.h"
 #include "protocol/check.h"
@@ -54,6 +55,8 @@ std::vector<Statement> outline_from(const Node& node, const std::string& text) {
     return statement;
   });
 }
+
+double measure(const Node& node) { return node.is_null() ? std::numeric_limits<double>::quiet_NaN() : node.number(); }
 
 std::vector<Logged> log_from(const Node& node) {
   return node.each([](const Node& action) {

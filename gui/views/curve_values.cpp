@@ -60,7 +60,7 @@ void add_expression(const Ui& ui, const std::string& name, std::vector<Curve>& o
   if (found == samples->values.end() || samples->times.size() < 3) return;
   const std::size_t components = found->second.empty() ? 0 : found->second.front().size();
   for (std::size_t c = 0; c < components; ++c) {
-    Curve curve{.name = name, .whole = {}, .of = name, .colour = colour_of(ui, name), .times = samples->times};
+    Curve curve{.name = name, .of = name, .colour = colour_of(ui, name), .times = samples->times};
     curve.dotted = c > 0;
     if (components > 1) curve.name += fmt::format("[{}]", c + 1);
     for (const auto& row : found->second) curve.values.push_back(row[c]);
@@ -89,7 +89,7 @@ std::vector<Curve> residual_curves(const Ui& ui) {
   for (std::size_t e = 0; e < ui.residuals().size(); ++e) {
     const Equation& equation = ui.question().equations[e];
     if (!selected.empty() && selected != equation.name) continue;
-    Curve curve{.name = equation.name, .whole = {}, .of = equation.name, .colour = {}};
+    Curve curve{.name = equation.name, .of = equation.name};
     for (const Residual& r : ui.residuals()[e]) {
       curve.times.push_back(r.time);
       curve.values.push_back(r.value);
@@ -115,12 +115,12 @@ std::vector<Curve> multiplier_curves(const Ui& ui) {
   for (const Multipliers& multipliers : ui.state.motion->multipliers) {
     if (multipliers.times.empty()) continue;
     if (!selected.empty() && selected != multipliers.name) continue;
-    const auto dofs = ui.question().dofs;
+    const auto& dofs = ui.question().dofs;
     const bool bound = std::ranges::find(dofs, multipliers.name, &Freedom::name) != dofs.end();
     if (bound && largest(multipliers) <= nothing * most) continue;
     const std::size_t components = multipliers.values.front().size();
     for (std::size_t c = 0; c < components; ++c) {
-      Curve curve{.name = multipliers.name, .whole = {}, .of = multipliers.name, .colour = {}};
+      Curve curve{.name = multipliers.name, .of = multipliers.name};
       if (components > 1) curve.name += fmt::format("[{}]", c + 1);
       curve.times = multipliers.times;
       for (const auto& row : multipliers.values) curve.values.push_back(row[c]);

@@ -11,11 +11,11 @@
 namespace spacetime::gui {
 
 struct Curve {
-  std::string name;   // in the legend
-  std::string whole;  // with its derivative, where something is told of it
-  std::string of;     // the degree of freedom, expression or constraint
-  ImVec4 colour;
-  std::vector<double> times, values;  // s; rising times
+  std::string name{};   // in the legend
+  std::string whole{};  // with its derivative, where something is told of it
+  std::string of{};     // the degree of freedom, expression or constraint
+  ImVec4 colour{};
+  std::vector<double> times{}, values{};  // s; rising times
   int derivative = 0;
   bool dotted = false;  // a ghost, or a component
   bool points = false;  // only at these times, nothing between them

@@ -264,35 +264,44 @@ void zoom(Ui& ui, const PlotFrame& frame) {
   if (ImGui::IsMouseDoubleClicked(0)) fit(ui);
 }
 
-// Names in the upper rows of the plot; whether the mouse is over one.  A click selects what it names.
-bool draw_names(Ui& ui, ImDrawList& list, const PlotFrame& frame, const std::vector<Curve>& curves, bool hovered) {
-  std::vector<Name> names;
+// The names of curves in the upper rows of the plot.
+struct Names {
+  std::vector<Name> all;
   std::vector<const Curve*> of;
+  Legend legend;
+};
+
+Names names_of(Ui& ui, const PlotFrame& frame, const std::vector<Curve>& curves) {
+  Names names;
   for (const Curve& curve : curves) {
-    if (std::ranges::find(names, curve.name, &Name::text) != names.end()) continue;
-    names.push_back({curve.name, curve.colour});
-    of.push_back(&curve);
+    if (std::ranges::find(names.all, curve.name, &Name::text) != names.all.end()) continue;
+    names.all.push_back({curve.name, curve.colour});
+    names.of.push_back(&curve);
   }
   const ImVec2 corner{frame.corner.x + 8, frame.corner.y + 3};
-  const Legend legend = arrange(names, corner, frame.size.x - 16, legend_rows, ui.scaled(14));
-  draw(list, legend, names, ui.colours(), true);
-  for (std::size_t i = 0; i < legend.places.size(); ++i) {
-    const auto& [low, size] = legend.places[i];
-    const bool number = legend.left_out > 0 && i + 1 == legend.places.size();
-    ui.memory.places[number ? "legend more" : "legend " + names[i].text] = {low.x, low.y, size.x, size.y};
+  names.legend = arrange(names.all, corner, frame.size.x - 16, legend_rows, ui.scaled(14));
+  for (std::size_t i = 0; i < names.legend.places.size(); ++i) {
+    const auto& [low, size] = names.legend.places[i];
+    const bool number = names.legend.left_out > 0 && i + 1 == names.legend.places.size();
+    ui.memory.places[number ? "legend more" : "legend " + names.all[i].text] = {low.x, low.y, size.x, size.y};
   }
-  const int at = hovered && ui.memory.curves.dragged.empty() ? legend.at(ImGui::GetIO().MousePos) : -1;
+  return names;
+}
+
+// A click selects what is named there; whether the mouse is over a name.
+bool take_names(Ui& ui, const Names& names) {
+  const int at = ui.memory.curves.dragged.empty() ? names.legend.at(ImGui::GetIO().MousePos) : -1;
   if (at < 0) return false;
   const auto index = static_cast<std::size_t>(at);
-  if (legend.left_out > 0 && index + 1 == legend.places.size()) {
+  if (names.legend.left_out > 0 && index + 1 == names.legend.places.size()) {
     std::string rest;
-    for (std::size_t i = index; i < names.size(); ++i) rest += (rest.empty() ? "" : "\n") + names[i].text;
+    for (std::size_t i = index; i < names.all.size(); ++i) rest += (rest.empty() ? "" : "\n") + names.all[i].text;
     ui.help(rest.c_str());
     return true;
   }
-  const Curve& curve = *of[index];
-  const bool dof = ui.memory.curves.show == CurvesMemory::Show::curves && is_among(ui.state.selection.dofs, curve.of);
+  const Curve& curve = *names.of[index];
   const bool constraint = ui.memory.curves.show != CurvesMemory::Show::curves;
+  const bool dof = !constraint && is_among(ui.state.selection.dofs, curve.of);
   if (dof) ui.help("Click to select it alone; Ctrl+click to leave it out.");
   if (constraint) ui.help("Click to see this constraint alone, and again to see all.");
   if (!ImGui::IsMouseClicked(0)) return true;
@@ -329,9 +338,11 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
   draw_scales(list, frame, ui.colours());
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
   for (const Curve& curve : curves) draw(list, frame, curve, ui.memory.scale);
-  const bool over_names = draw_names(ui, list, frame, curves, hovered);
+  const Names names = names_of(ui, frame, curves);
+  const bool over_names = hovered && take_names(ui, names);
   bool busy = over_names;
   if (s.curves && m.show == CurvesMemory::Show::curves) busy |= draw_controls(ui, list, frame, hovered && !over_names);
+  draw(list, names.legend, names.all, ui.colours(), true);
   m.reading.clear();
   if (hovered && !busy) {
     if (const auto near = nearest(frame, curves, ImGui::GetIO().MousePos, ui.scaled(9)))

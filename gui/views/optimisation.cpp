@@ -49,7 +49,7 @@ void draw_choices(Ui& ui) {
 struct Course {
   Name name;
   float width = 1.6F;
-  std::vector<double> values;  // one a record; no number where it is not known
+  std::vector<double> values{};  // one a record; no number where it is not known
 };
 
 std::vector<Course> convergence(const Ui& ui, const std::vector<IterationRecord>& record) {
@@ -118,6 +118,7 @@ void draw(ImDrawList& list, const PlotFrame& frame, const Course& course, const 
 void draw_by_iteration(Ui& ui) {
   const auto& record = ui.state.record.iterations;
   bool& by_objective = ui.memory.objective_by_iteration;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(2), 0});
   if (ImGui::RadioButton("Convergence", !by_objective)) by_objective = false;
   ui.here("by convergence");
   ui.help("The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
@@ -125,6 +126,7 @@ void draw_by_iteration(Ui& ui) {
   if (ImGui::RadioButton("Objective", by_objective)) by_objective = true;
   ui.here("by objective");
   ui.help("What is minimised and the terms that it is the sum of, by iteration.");
+  ImGui::PopStyleVar();
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
