@@ -132,7 +132,7 @@ TEST(Window, ARunIsPausedAndContinued) {
   Driver d(daemons(), 1280, 800);
   open_throw(d);
   d.hub().post(gui::Act{"solve method sqp92 iterations 1000000000 tolerance 1e-300"});
-  d.until([](const gui::State& s) { return s.record.size() > 3; }, "iterations");
+  d.until([](const gui::State& s) { return s.record.iterations.size() > 3; }, "iterations");
   d.save_picture("pause-1-running.png");
   d.click("pause");
   d.settle();
@@ -141,7 +141,11 @@ TEST(Window, ARunIsPausedAndContinued) {
   d.save_picture("pause-2-paused.png");
   const int before = d.state().motion->iterations;
   d.click("continue");
-  d.until([&](const gui::State& s) { return !s.record.empty() && s.record.back().iteration > before; }, "more of it");
+  d.until(
+      [&](const gui::State& s) {
+        return !s.record.iterations.empty() && s.record.iterations.back().iteration > before;
+      },
+      "more of it");
   d.click("stop");
   d.settle();
   EXPECT_TRUE(d.has("run"));
