@@ -225,9 +225,9 @@ Checkpoint checkpoint_from(const Node& node, bool stamped) {
   checkpoint.judged = node["judged"].boolean();
   checkpoint.functionals = node["functionals"].numbers();
   if (const auto outside = node.find("outside")) {
-    outside->object({"objective", "terms", "functionals"});
-    checkpoint.outside = {measure_from((*outside)["objective"]), (*outside)["terms"].each(measure_from),
-                          (*outside)["functionals"].each(measure_from)};
+    outside->object({"objective", "functionals"}, {"terms"});
+    checkpoint.outside = {measure_from((*outside)["objective"]), {}, (*outside)["functionals"].each(measure_from)};
+    if (const auto terms = outside->find("terms")) checkpoint.outside->terms = terms->each(measure_from);
   }
   checkpoint.step = node["step"].number();
   checkpoint.last_shift = node["shift"].number();
