@@ -199,11 +199,10 @@ void fit(Ui& ui) {
 
 void draw_fit(Ui& ui) {
   if (ImGui::SmallButton("Fit")) fit(ui);
-  ui.here("fit");
-  ui.help(
-      "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
-      "dragging "
-      "with the right button moves.");
+  ui.control("fit",
+             "Shows all of the selected curves at all times. The mouse wheel zooms in values, with Shift in time, and "
+             "dragging "
+             "with the right button moves.");
 }
 
 void draw_tools(Ui& ui) {
@@ -217,8 +216,7 @@ void draw_tools(Ui& ui) {
       m.show = show;
       m.low = m.high = 0;  // other units
     }
-    ui.here(std::string("show ") + name);
-    ui.help(help);
+    ui.control(std::string("show ") + name, help);
   };
   choice("curves", Show::curves, "Degrees of freedom and expressions, with their derivatives.");
   choice("residuals", Show::residuals,
@@ -229,8 +227,7 @@ void draw_tools(Ui& ui) {
   if (m.show == CurvesMemory::Show::curves) {
     const auto toggle = [&](const char* label, bool& on, const char* name, const char* help) {
       ImGui::Checkbox(label, &on);
-      ui.here(name);
-      ui.help(help);
+      ui.control(name, help);
     };
     toggle("q", m.derivative[0], "value", "The values themselves.");
     ImGui::SameLine();

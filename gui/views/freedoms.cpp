@@ -144,9 +144,10 @@ void draw_freedoms(Ui& ui) {
       if (draw_shown(ui, dof.name, dof.name, is_among(s.selection.dofs, dof.name))) {
         select_dof(ui, dof.name);
       }
-      ui.control("dof " + dof.name,
-                 "Click to select it and show its curve, with Ctrl beside others; right button to refine, damp or bound it. "
-                 "What is selected is smoothed and shaken beside the curves.");
+      ui.control(
+          "dof " + dof.name,
+          "Click to select it and show its curve, with Ctrl beside others; right button to refine, damp or bound it. "
+          "What is selected is smoothed and shaken beside the curves.");
       draw_menu(ui, dof);
       ImGui::TableNextColumn();
       if (s.curves) {

@@ -120,12 +120,11 @@ void draw_by_iteration(Ui& ui) {
   bool& by_objective = ui.memory.objective_by_iteration;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(2), 0});
   if (ImGui::RadioButton("Convergence", !by_objective)) by_objective = false;
-  ui.here("by convergence");
-  ui.help("The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
+  ui.control("by convergence",
+             "The largest violation of a constraint and the gradient of the Lagrangian, by iteration.");
   ImGui::SameLine();
   if (ImGui::RadioButton("Objective", by_objective)) by_objective = true;
-  ui.here("by objective");
-  ui.help("What is minimised and the terms that it is the sum of, by iteration.");
+  ui.control("by objective", "What is minimised and the terms that it is the sum of, by iteration.");
   ImGui::PopStyleVar();
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -133,8 +132,8 @@ void draw_by_iteration(Ui& ui) {
   const float width = ImGui::GetContentRegionAvail().x, height = ui.scaled(120);
   const float margin = ui.scaled(44), below = ImGui::GetFontSize() + 6;
   ImGui::Dummy({width, height});
-  ui.here("by iteration");
-  ui.help("A solve begins anew, unless it goes on where the last one ended. Thin lines: edits while it ran.");
+  ui.control("by iteration",
+             "A solve begins anew, unless it goes on where the last one ended. Thin lines: edits while it ran.");
   PlotFrame frame{
       {at.x + margin, at.y + 4}, {width - margin - 6, height - below - 4}, 0, 10, by_objective ? 0.0 : -9, 1};
   if (!record.empty()) {

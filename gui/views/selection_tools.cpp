@@ -35,8 +35,7 @@ void say_what(Ui& ui, const char* verb, const DofNames& names) {
 void draw_number(Ui& ui, const char* label, const char* name, double& value, const char* help) {
   ImGui::SetNextItemWidth(ui.scaled(90));
   ImGui::InputDouble(label, &value, 0, 0, "%.4g");
-  ui.here(name);
-  ui.help(help);
+  ui.control(name, help);
 }
 
 void draw_filter(Ui& ui, const DofNames& names) {
@@ -62,8 +61,7 @@ void draw_shake(Ui& ui, const DofNames& names) {
               "A smooth random curve is added that nowhere exceeds this, in each one's own units.");
   ImGui::SetNextItemWidth(ui.scaled(90));
   ImGui::InputInt("Seed", &m.seed, 0);
-  ui.here("shake seed");
-  ui.help("The same seed is the same disturbance. Each Shake counts it up.");
+  ui.control("shake seed", "The same seed is the same disturbance. Each Shake counts it up.");
   m.seed = std::clamp(m.seed, 1, 1'000'000);
   const bool possible = std::isfinite(m.amplitude) && m.amplitude > 0 && !names.empty();
   if (ImGui::Button("Shake") && possible) {
@@ -80,12 +78,10 @@ void draw_selection_tools(Ui& ui) {
   const DofNames names = selected(ui);
   if (names.empty()) ImGui::BeginDisabled();
   if (ImGui::SmallButton("Filter...")) ImGui::OpenPopup("filter");
-  ui.here("open filter");
-  ui.help("Smooths the degrees of freedom that are selected, here or in the Freedom table.");
+  ui.control("open filter", "Smooths the degrees of freedom that are selected, here or in the Freedom table.");
   ImGui::SameLine();
   if (ImGui::SmallButton("Shake...")) ImGui::OpenPopup("shake");
-  ui.here("open shake");
-  ui.help("Disturbs the degrees of freedom that are selected, to leave a local minimum.");
+  ui.control("open shake", "Disturbs the degrees of freedom that are selected, to leave a local minimum.");
   if (names.empty()) ImGui::EndDisabled();
   draw_filter(ui, names);
   draw_shake(ui, names);
