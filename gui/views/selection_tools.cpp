@@ -49,7 +49,7 @@ void draw_filter(Ui& ui, const DofNames& names) {
     ui.act(filter_words(m.strength, named(ui, names)).line, Notice::Place::timeline);
     ImGui::CloseCurrentPopup();
   }
-  ui.here("filter");
+  ui.control("filter", "Smooths them, as a line of the log.");
   ImGui::EndPopup();
 }
 
@@ -68,7 +68,7 @@ void draw_shake(Ui& ui, const DofNames& names) {
     ui.act(shake_words(m.amplitude, m.seed++, named(ui, names)).line, Notice::Place::timeline);
     ImGui::CloseCurrentPopup();
   }
-  ui.here("shake");
+  ui.control("shake", "Disturbs them, as a line of the log.");
   ImGui::EndPopup();
 }
 
