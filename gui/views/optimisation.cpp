@@ -155,7 +155,6 @@ void draw_by_iteration(Ui& ui) {
   const Legend legend = arrange(names, ImGui::GetCursorScreenPos(), width, 2, ui.scaled(14));
   draw(list, legend, names, ui.colours(), false);
   ImGui::Dummy({width, std::max(legend.height, ImGui::GetFontSize())});
-  ui.here("by iteration names");
 }
 
 void draw_terms(Ui& ui) {
