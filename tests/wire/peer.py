@@ -3,8 +3,10 @@
 Standard library only: what is tested here is also that a stranger can write a client in a page.
 """
 import atexit
+import functools
 import json
 import os
+import re
 import select
 import socket
 import ssl
@@ -26,6 +28,14 @@ FRAMINGS = ("lines", "headers")
 
 def path_of(name):
     return os.path.join(PROGRAMS, "spacetime-" + name)
+
+
+@functools.cache
+def sanitizer():
+    """With which the programs were built: address, thread, or none."""
+    with open(path_of("symbolic"), "rb") as program:
+        found = re.search(rb"__([at])san_init", program.read())
+    return {b"a": "address", b"t": "thread"}[found[1]] if found else None
 
 
 def framed(message, framing):
@@ -141,7 +151,9 @@ class Daemon:
 
     def resident_bytes(self):
         with open(f"/proc/{self.process.pid}/status", encoding="utf-8") as status:
-            return int(next(line for line in status if line.startswith("VmRSS")).split()[1]) * 1024
+            held = int(next(line for line in status if line.startswith("VmRSS")).split()[1]) * 1024
+        # Beside each byte the thread sanitizer keeps four and more on who has used it.
+        return held / 6 if sanitizer() == "thread" else held
 
     def __enter__(self):
         return self
