@@ -61,7 +61,7 @@ TEST(HubJournal, BringsBackLogMotionsAndPlaceWithoutSolving) {
   ASSERT_EQ(hub.state().left.size(), 1U);
   restore(hub, hub.state().left[0].journal);
   const State& state = hub.state();
-  EXPECT_TRUE(state.record.empty());  // nothing iterated
+  EXPECT_TRUE(state.record.iterations.empty());  // nothing iterated
   EXPECT_TRUE(state.left.empty());
   EXPECT_FALSE(state.selection.dofs.empty());  // there are curves to be seen
   EXPECT_EQ(state.log.size(), 5U);

@@ -20,9 +20,10 @@ TEST(HubPause, APausedRunGoesOnToTheSameBits) {
     const State& state = hub.state();
     int pauses = 0;
     while (pauses < 3) {
-      const auto records = state.record.size(), entries = state.log.size();
+      const auto records = state.record.iterations.size(), entries = state.log.size();
       until(
-          hub, [&](const State& s) { return s.record.size() > records || (s.log.size() > entries && quiet(s)); },
+          hub,
+          [&](const State& s) { return s.record.iterations.size() > records || (s.log.size() > entries && quiet(s)); },
           "an iteration");
       hub.post(Pause{});
       until_quiet(hub);

@@ -39,7 +39,7 @@ TEST(HubSession, OpensSolvesUndoesRedoesSavesAndOpensAgain) {
   post_and_wait(hub, RunScript{});
   ASSERT_EQ(state.log.size(), 2U) << told(state);
   EXPECT_EQ(state.motion->status, Status::converged);
-  EXPECT_GT(state.record.size(), 2U);
+  EXPECT_GT(state.record.iterations.size(), 2U);
   EXPECT_EQ(text_to_save(state), text);
   EXPECT_FALSE(unsaved(state));
   const auto solved = curves_text(*state.motion);
@@ -93,7 +93,7 @@ TEST(HubSession, ActsDuringARunTakeEffectAndReplay) {
   hub.post(RunScript{});
   const State& state = hub.state();
   until(
-      hub, [](const State& now) { return now.record.size() >= 1; }, "progress");
+      hub, [](const State& now) { return now.record.iterations.size() >= 1; }, "progress");
   hub.post(Act{"set BasketX = 2.25"});
   until_quiet(hub);
   ASSERT_GE(state.log.size(), 3U) << told(state);
@@ -107,7 +107,7 @@ TEST(HubSession, AStoppedRunIsKeptAsItsIterations) {
   open(hub, fine);
   hub.post(RunScript{});
   until(
-      hub, [](const State& now) { return now.record.size() >= 2; }, "progress");
+      hub, [](const State& now) { return now.record.iterations.size() >= 2; }, "progress");
   post_and_wait(hub, Stop{});
   const State& state = hub.state();
   ASSERT_EQ(state.log.size(), 2U) << told(state);
@@ -123,7 +123,7 @@ TEST(HubSession, UndoLeavesARunWhichCanBeComeBackTo) {
   const Curves start = *hub.state().curves;
   hub.post(RunScript{});
   until(
-      hub, [](const State& now) { return now.record.size() >= 2; }, "progress");
+      hub, [](const State& now) { return now.record.iterations.size() >= 2; }, "progress");
   hub.post(Undo{});
   hub.step(0);
   EXPECT_TRUE(*hub.state().curves == start);
