@@ -60,6 +60,7 @@ struct Table {
       statement.end = end;
       statement.action = statement.word != "time";
       if (statement.word == "solve") problem->actions.push_back({Solve{}, {line, 1}});
+      if (statement.word == "iterate") problem->actions.push_back({Iterate{}, {line, 1}});
       if (statement.word == "set") problem->actions.push_back({SetConstant{"k", {1, {}, 0}}, {line, 1}});
       if (statement.word == "wrong") scene->diagnostics.push_back({{line, 1, 5}, "this is wrong", {}});
       scene->outline.push_back(std::move(statement));

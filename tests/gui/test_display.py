@@ -167,11 +167,8 @@ class Display(unittest.TestCase):
         self.leave(window)
 
         window = self.open(scene)
-        while self.journal()[0] and self.journal()[1] < shown:
-            before = self.journal()[1]
-            self.xdotool("mousemove", *RUN, "click", 1)
-            self.until(lambda: self.journal()[1] > before and self.journal()[2], "the script")
-        self.until(lambda: self.journal()[2] and self.journal()[2]["dofs"] == last["dofs"], "the same motion")
+        self.xdotool("mousemove", *RUN, "click", 1)  # all that the file asks for
+        self.until(lambda: (self.journal()[2] or {}).get("dofs") == last["dofs"], "the same motion")
         self.leave(window)
 
     def test_without_a_display_it_says_what_to_do(self):
