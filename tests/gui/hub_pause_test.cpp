@@ -20,7 +20,8 @@ TEST(HubPause, APausedRunGoesOnToTheSameBits) {
     const State& state = hub.state();
     int pauses = 0;
     while (pauses < 3) {
-      const auto records = state.record.iterations.size(), entries = state.log.size();
+      // A record begins with where its run began.
+      const auto records = std::max<std::size_t>(state.record.iterations.size(), 1), entries = state.log.size();
       until(
           hub,
           [&](const State& s) { return s.record.iterations.size() > records || (s.log.size() > entries && quiet(s)); },
