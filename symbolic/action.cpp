@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "common/nearest.h"
 #include "symbolic/expression.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "common/nearest.h"
 #include "symbolic/dof.h"
 #include "symbolic/expression.h"
 #include "symbolic/link.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

@@ -2,9 +2,9 @@
 // arm.potential.
 #include <algorithm>
 
+#include "common/nearest.h"
 #include "symbolic/creature.h"
 #include "symbolic/model.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

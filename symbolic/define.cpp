@@ -4,10 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "common/nearest.h"
 #include "symbolic/expression.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

@@ -1,10 +1,10 @@
 // Actions that change the problem between iterations, or move the motion by hand.
 #include <cmath>
 
+#include "common/nearest.h"
 #include "symbolic/action.h"
 #include "symbolic/eliminate.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"
 #include "symbolic/statement.h"

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "common/nearest.h"
 #include "symbolic/derivative.h"
 #include "symbolic/dof.h"
 #include "symbolic/expression.h"
 #include "symbolic/functional.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/value.h"
 

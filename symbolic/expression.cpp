@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/nearest.h"
 #include "symbolic/define.h"
 #include "symbolic/derivative.h"
 #include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 #include "symbolic/value.h"
 

@@ -1,8 +1,8 @@
 #include "symbolic/names.h"
 
+#include "common/nearest.h"
 #include "symbolic/eliminate.h"
 #include "symbolic/functions.h"
-#include "common/nearest.h"
 #include "symbolic/quoted.h"
 
 namespace spacetime::symbolic {

@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "common/nearest.h"
 #include "symbolic/derivative.h"
 #include "symbolic/expression.h"
 #include "symbolic/functional.h"
 #include "symbolic/names.h"
-#include "common/nearest.h"
 #include "symbolic/parse_expression.h"
 #include "symbolic/quoted.h"
 #include "symbolic/scope.h"
