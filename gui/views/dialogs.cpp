@@ -216,14 +216,15 @@ void draw_guard(Ui& ui) {
   }
   ui.control("guard save", "Save first.");
   ImGui::SameLine();
-  if (ImGui::Button("Discard them", {ui.scaled(110), 0})) {
-    ui.memory.discard = next.to == Leaving::To::quit;
+  const bool quits = next.to == Leaving::To::quit;
+  if (ImGui::Button(quits ? "Discard and quit" : "Discard them", {ui.scaled(130), 0})) {
+    ui.memory.discard = quits;
     go(ui, next);
     ImGui::CloseCurrentPopup();
   }
   ui.control("guard discard", "Go on without saving: the changes are lost.");
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", {ui.scaled(110), 0})) {
+  if (ImGui::Button("Cancel", {ui.scaled(110), 0}) || escaped()) {
     ui.memory.leaving.reset();
     ImGui::CloseCurrentPopup();
   }

@@ -209,7 +209,8 @@ void draw_optimisation(Ui& ui) {
                            : status == Status::stopped ? ui.colours().warning
                                                        : ui.colours().bad;
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s after %d iterations", std::string(name_of(status)).c_str(), s.motion->iterations);
+    ImGui::TextWrapped("%s after %d iteration%s", std::string(name_of(status)).c_str(), s.motion->iterations,
+                       s.motion->iterations == 1 ? "" : "s");
     ImGui::PopStyleColor();
     ImGui::TextWrapped("%s", s.motion->message.c_str());
     ui.here("outcome");

@@ -201,7 +201,7 @@ void draw_timeline(Ui& ui) {
   const float width = ImGui::GetContentRegionAvail().x;
   draw_transport(ui, start, end);
   if (!there) {
-    ImGui::TextDisabled("There is no motion: the scene has mistakes.");
+    ImGui::TextDisabled(s.scene ? "There is no motion: the scene has mistakes." : "No scene is open.");
     return;
   }
   const TimeAxis axis = time_axis(ui, start, end, at.x + ui.scaled(166), at.x + width - ui.scaled(18));

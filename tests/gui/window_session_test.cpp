@@ -52,6 +52,11 @@ TEST(Window, ANewSceneCanBeRunChangedAndIsNotLeftUnasked) {
   d.frame(3);
   ASSERT_TRUE(d.has("guard discard"));
   d.save_picture("new-2-guard.png");
+  d.key(GLFW_KEY_ESCAPE);
+  d.frame(2);
+  EXPECT_FALSE(d.has("guard discard"));
+  d.key(GLFW_KEY_N, true);
+  d.frame(3);
   d.click("guard cancel");
   EXPECT_TRUE(unsaved(d.state()));
   d.click("menu File");
