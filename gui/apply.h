@@ -46,6 +46,7 @@ void take_from_script(State& state);  // its first line, which is in the text no
 void begin_task(State& state, Effects& effects);
 void compiled_task(State& state, const Compiled& event, Effects& effects);
 void compiled_base(State& state, const Compiled& event);
+void drop_notices_of_acts(State& state);                            // what was told of the last ones
 void drop_acts(State& state, Effects& effects);                     // those that wait and the one that has its turn
 void performed(State& state, const Done& event, Effects& effects);  // a part of the task
 void refuse_task(State& state, const std::string& why, Effects& effects);

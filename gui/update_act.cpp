@@ -53,10 +53,6 @@ void lose_place(State& state, Effects& effects) {
   stop_run(state, effects);
 }
 
-void drop_notices_of_acts(State& state) {
-  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
-}
-
 // The statements that the act adds, with their places in its own text.
 std::vector<Statement> added_statements(const Scene& base, const Scene& compiled, std::size_t begin, int lines) {
   std::vector<Statement> added(compiled.outline.begin() + static_cast<std::ptrdiff_t>(base.outline.size()),
@@ -87,6 +83,10 @@ void begin_record(State& state) {
 }
 
 }  // namespace
+
+void drop_notices_of_acts(State& state) {
+  std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
+}
 
 void apply(State& state, const Act& event, Effects&) {
   drop_notices_of_acts(state);

@@ -294,6 +294,7 @@ void apply(State& state, const GoTo& event, Effects& effects) {
   if (!state.log[event.entry].checkpoint) return;
   Work& work = state.work;
   drop_acts(state, effects);
+  drop_notices_of_acts(state);  // they are of what is left
   work.failed = 0;
   if (work.drag) leave_drag(state, effects);
   if (work.going) {

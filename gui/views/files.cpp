@@ -135,6 +135,7 @@ void draw_files(Ui& ui) {
   ImGui::PopTextWrapPos();
   list_folder(ui, {".scene"});
   ImGui::SetNextItemWidth(-1);
+  if (!open && ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##name", &m.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.control("file name", "Of the file, in the folder above; Enter takes it.");
   const fs::path chosen = fs::path(m.folder) / m.name;

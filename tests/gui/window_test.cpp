@@ -175,6 +175,10 @@ TEST(Window, MistakesAreToldWhereThePersonLooks) {
   EXPECT_EQ(d.state().motion->status, Status::infeasible);
   EXPECT_NE(d.state().motion->message.find("wall"), std::string::npos) << d.state().motion->message;
   d.save_picture("mistake-infeasible.png");
+  d.click("undo");
+  d.click("undo");
+  d.settle();
+  for (const gui::Notice& notice : d.state().notices) EXPECT_EQ(notice.text.find("wall"), std::string::npos);
 
   // A file that cannot be written.
   d.hub().post(gui::Save{"/proc/nothing/here.scene"});
