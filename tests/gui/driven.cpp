@@ -65,6 +65,8 @@ std::string curves_text(const Motion& motion) {
   return write(curves);
 }
 
+std::string present_curves(const gui::State& state) { return curves_text(*state.log[state.present].motion); }
+
 std::string batch_curves(const std::string& text) {
   const Result result = solve_scene(text);
   EXPECT_NE(result.code, 1) << result.err;

@@ -25,6 +25,7 @@ void act(gui::Hub& hub, const std::string& line);
 
 // The curves of a motion as one document: equal where every coefficient has the same bits.
 std::string curves_text(const Motion& motion);
+std::string present_curves(const gui::State& state);  // of the act that is shown
 // Of the text performed by `spacetime-symbolic compile | spacetime-optimizer solve`.
 std::string batch_curves(const std::string& text);
 // What is told of errors and warnings, for messages of failed tests.

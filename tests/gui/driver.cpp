@@ -59,38 +59,23 @@ void Driver::click(const std::string& name, int button) {
   frame(2);
 }
 
-void Driver::drag(const std::string& name, float dx, float dy, int steps, bool let_go_then) {
+void Driver::drag(const std::string& name, float dx, float dy, int steps, bool let_go_then, int button) {
   const gui::Rect r = place(name);
   const float x = r.x + r.width / 2, y = r.y + r.height / 2;
   screen_.move(x, y);
   frame(2);
-  screen_.button(0, true);
+  screen_.button(button, true);
   frame();
   for (int k = 1; k <= steps; ++k) {
     const float share = static_cast<float>(k) / static_cast<float>(steps);
     screen_.move(x + share * dx, y + share * dy);
     frame();
   }
-  if (let_go_then) let_go();
+  if (let_go_then) let_go(button);
 }
 
-void Driver::let_go() {
-  screen_.button(0, false);
-  frame(2);
-}
-
-void Driver::drag_right(const std::string& name, float dx, float dy) {
-  const gui::Rect r = place(name);
-  const float x = r.x + r.width / 2, y = r.y + r.height / 2;
-  screen_.move(x, y);
-  frame(2);
-  screen_.button(1, true);
-  frame();
-  for (int k = 1; k <= 8; ++k) {
-    screen_.move(x + dx * static_cast<float>(k) / 8, y + dy * static_cast<float>(k) / 8);
-    frame();
-  }
-  screen_.button(1, false);
+void Driver::let_go(int button) {
+  screen_.button(button, false);
   frame(2);
 }
 

@@ -22,10 +22,10 @@ class Driver {
   bool has(const std::string& name);
   gui::Rect place(const std::string& name);  // of a control; a test failure where it is not there
   void click(const std::string& name, int button = 0);
-  // From the middle of a control by so many pixels, in `steps` frames; `let_go` false keeps the button down.
-  void drag(const std::string& name, float dx, float dy, int steps = 8, bool let_go = true);
-  void let_go();
-  void drag_right(const std::string& name, float dx, float dy);  // with the other button
+  // From the middle of a control by so many pixels, in `steps` frames, with button 0 (left) or 1 (right); `let_go`
+  // false keeps the button down.
+  void drag(const std::string& name, float dx, float dy, int steps = 8, bool let_go = true, int button = 0);
+  void let_go(int button = 0);
   void wheel(const std::string& name, float by, bool shift = false);
   void key(int glfw_key, bool control = false, bool shift = false);
   void type(const std::string& text);

@@ -1,0 +1,90 @@
+#include "optimizer/server_sample.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/bspline.h"
+#include "protocol/declared.h"
+
+namespace spacetime::optimizer {
+namespace {
+
+// A degree of freedom or its derivative, by the name that the language has for it: x, x' or x''.
+struct Derivative {
+  std::string name;
+  std::size_t place;  // among the problem's
+  int order;
+};
+
+Derivative derivative_named(const Node& name, const Problem& problem) {
+  std::string_view bare = name.string();
+  int order = 0;
+  for (; order < 2 && bare.ends_with('\''); ++order) bare.remove_suffix(1);
+  const auto found = std::ranges::find(problem.dofs, bare, &Dof::name);
+  if (found == problem.dofs.end()) {
+    auto names = names_of(problem.plots);
+    for (const Body& body : problem.bodies) names.push_back(body.name);
+    for (const Dof& dof : problem.dofs) names.push_back(dof.name);
+    name.refuse(there_is_no("plotted expression, body or degree of freedom", name.string(), names));
+  }
+  return {name.string(), static_cast<std::size_t>(found - problem.dofs.begin()), order};
+}
+
+}  // namespace
+
+void answer_sample(const Node& params, const Session& session, const protocol::Allowance& allowance, Writer& result) {
+  params.object({"times"}, {"expressions", "revision"});
+  const auto times = params["times"].numbers();
+  const Problem& problem = session.problem();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < problem.start || times[i] > problem.end) {
+      params["times"][i].refuse(
+          fmt::format("{:.9g} is outside the problem's time, {:.9g} to {:.9g}", times[i], problem.start, problem.end));
+    }
+  }
+  std::size_t each = 0;
+  for (const Plot& plot : problem.plots) each += plot.outputs.size();
+  each += 12 * problem.bodies.size();
+  std::optional<std::vector<std::string>> wanted;
+  std::vector<Derivative> dofs;
+  if (const auto names = params.find("expressions")) {
+    wanted = names->each([&](const Node& name) {
+      const auto is_it = [&](const auto& thing) { return thing.name == name.string(); };
+      if (std::ranges::none_of(problem.plots, is_it) && std::ranges::none_of(problem.bodies, is_it)) {
+        dofs.push_back(derivative_named(name, problem));
+      }
+      return name.string();
+    });
+  }
+  const double numbers = static_cast<double>(times.size()) * static_cast<double>(each + dofs.size());
+  if (numbers > allowance.samples) throw beyond("samples", allowance, numbers);
+  Samples samples = session.samples(times);
+  const auto curves = session.trajectories();
+  for (const Derivative& dof : dofs) {
+    std::vector<std::vector<double>> rows;
+    const Trajectory& curve = curves[dof.place];
+    for (const double t : times) rows.push_back({value(curve.basis, curve.coefficients, t, dof.order)});
+    samples.values.insert_or_assign(dof.name, std::move(rows));
+  }
+  const auto write_rows = [&](std::string_view member, const auto& tables) {
+    result.key(member);
+    result.object([&] {
+      for (const auto& [name, rows] : tables) {
+        if (wanted && std::ranges::find(*wanted, name) == wanted->end()) continue;
+        result.key(name);
+        result.list_of(rows, [&](const std::vector<double>& row) {
+          result.list_of(row, [&](double value) { std::isfinite(value) ? result.number(value) : result.null(); });
+        });
+      }
+    });
+  };
+  result.key("times");
+  result.numbers(times);
+  write_rows("values", samples.values);
+  write_rows("poses", samples.poses);
+}
+
+}  // namespace spacetime::optimizer
