@@ -33,7 +33,8 @@ Connection::Connection(boost::asio::io_context& context, std::unique_ptr<Stream>
       watch_(context),
       last_message_(Clock::now()),
       last_byte_(last_message_),
-      last_written_(last_message_) {
+      last_written_(last_message_),
+      unsent_(most_unsent_bytes) {
   if (service) conversation_.emplace(*service, allowance, *this);
 }
 
@@ -60,7 +61,7 @@ void Connection::cut() {
 
 // What nobody will read.
 void Connection::forget() {
-  for (const Outgoing& outgoing : queue_) unsent_bytes_ -= outgoing.bytes;
+  for (const Outgoing& outgoing : queue_) unsent_.take_off(outgoing.bytes);
   queue_.clear();
   newest_ = {};
 }
@@ -127,21 +128,23 @@ void Connection::send(std::string message) {
     const std::lock_guard lock(mutex_);
     if (newest_) queue_.push_back({std::exchange(newest_, {}), 0});
     const std::size_t bytes = message.size();
-    unsent_bytes_ += bytes;
     queue_.push_back({[message = std::move(message)]() mutable { return std::move(message); }, bytes});
+    unsent_.add(bytes);
   }
   wake();
 }
 
 void Connection::offer(std::function<std::string()> message) {
+  bool first = false;
   {
     const std::lock_guard lock(mutex_);
-    newest_ = std::move(message);
+    first = !newest_;
+    newest_.swap(message);  // what it takes the place of is let go of without the lock
   }
-  wake();
+  if (first) wake();  // else write() is to come already: after a wake, a write or the pace
 }
 
-bool Connection::full() const { return unsent_bytes_ > most_unsent_bytes; }
+bool Connection::full() const { return unsent_.full(); }
 
 void Connection::ended() {
   {
@@ -215,9 +218,7 @@ void Connection::write() {
   last_written_ = Clock::now();
   stream_->write_all(outgoing_,
                      [self = shared_from_this(), bytes = next.bytes](boost::system::error_code error, std::size_t) {
-                       const bool was_full = self->full();
-                       self->unsent_bytes_ -= bytes;
-                       if (was_full && !self->full() && self->conversation_) self->conversation_->drained();
+                       if (self->unsent_.take_off(bytes) && self->conversation_) self->conversation_->drained();
                        self->written(error);
                      });
 }

@@ -5,7 +5,6 @@
 #include <utility>  // before Asio 1.74
 
 #include <array>
-#include <atomic>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
 #include <deque>
@@ -15,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "protocol/backlog.h"
 #include "protocol/conversation.h"
 #include "protocol/stream.h"
 
@@ -72,12 +72,12 @@ class Connection final : public Outlet, public std::enable_shared_from_this<Conn
   mutable std::mutex mutex_;  // of what follows
   struct Outgoing {
     Message write;
-    std::size_t bytes = 0;  // counted in unsent_bytes_
+    std::size_t bytes = 0;  // counted in unsent_
   };
   std::deque<Outgoing> queue_;
   Message newest_;
   bool wake_coming_ = false, ended_ = false;
-  std::atomic<std::size_t> unsent_bytes_ = 0;
+  Backlog unsent_;  // needs no lock
 
   std::optional<Conversation> conversation_;  // destroyed first: its thread uses the rest
 };
