@@ -93,7 +93,7 @@ struct Checkpoint {
     bool operator==(const Bfgs&) const = default;
   };
 
-  std::string problem;               // its fingerprint (protocol/fingerprint)
+  std::string problem;               // its fingerprint (protocol/problem_json)
   std::string fingerprint;           // of the motion's numbers and these, as a document told it; else empty
   std::optional<Progress> progress;  // where the problem's own actions are performed in turn
   int declared = 0;                  // statements that take effect before this action have done so

@@ -89,10 +89,6 @@ Window window_from(const Node& node) {
   return *window;
 }
 
-}  // namespace
-
-namespace {
-
 void write(Writer& to, const Checkpoint& checkpoint, bool failed, const std::string& stamp) {
   const Measures measures{to, failed};
   to.object(

@@ -46,7 +46,7 @@ class Client {
   using Progress = std::function<void(const Json& value)>;
 
   Client(Target target, Callbacks callbacks);
-  ~Client();  // says farewell; a daemon that was started here ends
+  ~Client();  // hangs up at once; a daemon that was started here is killed
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 from tests.wire import peer
-from tests.wire.test_runs import Session
+from tests.wire.session import Session
 
 
 class Examples(unittest.TestCase):
