@@ -19,6 +19,7 @@
 #include "protocol/history.h"
 #include "protocol/service.h"
 #include "protocol/stream.h"
+#include "protocol/strict.h"
 
 // After stream.h, which has what Asio 1.74 forgets.
 #include <boost/asio/executor_work_guard.hpp>
@@ -42,6 +43,7 @@ constexpr int most_tries = 8;
 constexpr int cannot_start = 127;
 
 constexpr std::size_t longest_answer = std::size_t{1} << 30;
+constexpr std::size_t longest_quote = 40;  // bytes of what is no message that are told
 
 // Starts the program with one socket as its standard input and output; the other end, and its process.
 std::pair<int, pid_t> spawn(const std::vector<std::string>& program) {
@@ -133,7 +135,7 @@ class Client::Link {
   void connect() {
     if (ending_) return;
     enter(State::connecting, "");
-    reader_ = FrameReader(longest_answer);
+    reader_ = FrameReader(longest_answer, Framing::lines);
     outgoing_.clear();
     writing_ = false;
     ++generation_;
@@ -257,7 +259,7 @@ class Client::Link {
       if (error) return retry_after(error, "the daemon has ended the connection: " + error.message());
       reader_.add({block_.data(), bytes});
       while (auto frame = reader_.next()) {
-        take(frame->text);
+        take(*frame);
         if (!stream_) return;
       }
       read();
@@ -265,7 +267,7 @@ class Client::Link {
   }
 
   void write(std::string message) {
-    outgoing_.push_back(framed(message, Framing::lines));
+    outgoing_.push_back(framed(std::move(message), Framing::lines));
     if (!writing_) write_next();
   }
 
@@ -281,50 +283,92 @@ class Client::Link {
                        });
   }
 
-  void take(const std::string& text) {
-    Json message = Json::parse(text, nullptr, false);
-    if (!message.is_object()) return;
-    if (message.contains("method")) return take_progress(message);
-    if (!message.contains("id") || !message["id"].is_number_integer()) return;
-    const int id = message["id"].get<int>();
-    if (id == 0) {
-      if (message.contains("error")) return take_refusal(message["error"]);
+  void take(const Frame& frame) {
+    const Json none;
+    Json message = frame.kind == Frame::Kind::message ? Json::parse(frame.text, nullptr, false) : none;
+    if (!message.is_object()) {  // from something else that writes where it does, perhaps; the next may do without
+      const bool told = frame.kind != Frame::Kind::message;
+      return retry("the daemon says what is no message: " + (told ? frame.text : frame.text.substr(0, longest_quote)));
+    }
+    std::function<void()> follows;
+    try {
+      follows = what_follows(message);
+    } catch (const DocumentError& error) {
+      return lose(std::string("what the daemon says is not as the protocol says: ") + error.what());
+    }
+    if (follows) follows();  // others' mistakes are not the daemon's
+  }
+
+  // What is to be done about a message; nothing where nobody waits for it.  It may refer to the message.  Throws
+  // DocumentError where a daemon must not say so.
+  std::function<void()> what_follows(Json& message) {
+    const Node unnamed(message, "message");
+    if (unnamed.find("method")) return progress_in(unnamed);
+    const auto number = unnamed.find("id");
+    if (!number || !number->json().is_number_integer()) return {};
+    const int id = number->integer();
+    if (id == 0) return state_ == State::ready ? std::function<void()>() : resent_answer(unnamed);
+    const auto found = asked_.find(id);
+    if (found == asked_.end()) return {};
+    const std::string name = "answer to " + found->second.method;
+    const Node answer(message, name);
+    Reply reply;
+    if (const auto error = error_in(answer)) {
+      reply.error = error->json();
+    } else {
+      history_.note(found->second.method, found->second.params, answer["result"]);
+      reply.result = std::move(message["result"]);
+    }
+    const Asked asked = std::move(found->second);
+    asked_.erase(found);
+    if (!asked.answered) return {};
+    return [answered = asked.answered, reply = std::move(reply)] { answered(reply); };
+  }
+
+  // An answer is an object either way.
+  static std::optional<Node> error_in(const Node& answer) {
+    const auto error = answer.find("error");
+    if (!error) {
+      if (!answer["result"].is_object()) answer["result"].expected("an object");
+      return std::nullopt;
+    }
+    if (!(*error)["code"].json().is_number_integer()) (*error)["code"].expected("an integer");
+    (*error)["message"].string();
+    return error;
+  }
+
+  // To the greeting, or to what led the last daemon to where it was.
+  std::function<void()> resent_answer(const Node& answer) {
+    if (const auto error = error_in(answer)) {
+      return [this, code = (*error)["code"].json().get<int>(), why = (*error)["message"].string()] {
+        take_refusal(code, why);
+      };
+    }
+    return [this] {
       greeting_.cancel();
       failures_ = 0;
       ++resent_;
-      return resend();
-    }
-    const auto found = asked_.find(id);
-    if (found == asked_.end()) return;
-    const Asked asked = std::move(found->second);
-    asked_.erase(found);
-    Reply reply;
-    if (message.contains("error")) {
-      reply.error = std::move(message["error"]);
-    } else {
-      reply.result = std::move(message["result"]);
-      history_.note(asked.method, asked.params, reply.result);
-    }
-    if (asked.answered) asked.answered(reply);
+      resend();
+    };
   }
 
   // A daemon that serves others may have room later; one that speaks another language never will, nor will one that
   // refuses what another has done before it stand where that one stood.
-  void take_refusal(const Json& error) {
-    const bool told = error.is_object() && error.contains("message") && error["message"].is_string();
-    const std::string why = told ? error["message"].get<std::string>() : "refused without a reason";
+  void take_refusal(int code, const std::string& why) {
     if (resent_ >= 0) {
       return lose("a new daemon cannot be brought to where the last one was: " +
                   history_.messages()[static_cast<std::size_t>(resent_)].method + ": " + why);
     }
-    const bool full = error.is_object() && error.value("code", Json()) == static_cast<int>(Code::too_many_sessions);
-    full ? retry(why) : lose(why);
+    code == static_cast<int>(Code::too_many_sessions) ? retry(why) : lose(why);
   }
 
-  void take_progress(const Json& message) {
-    if (message["method"] != "$/progress" || !message["params"]["token"].is_number_integer()) return;
-    const auto found = asked_.find(message["params"]["token"].get<int>());
-    if (found != asked_.end() && found->second.progress) found->second.progress(message["params"]["value"]);
+  std::function<void()> progress_in(const Node& message) {
+    if (message["method"].string() != "$/progress") return {};
+    const Json &token = message["params"]["token"].json(), &value = message["params"]["value"].json();
+    if (!token.is_number_integer()) return {};
+    const auto found = asked_.find(token.get<int>());
+    if (found == asked_.end() || !found->second.progress) return {};
+    return [tell = found->second.progress, &value] { tell(value); };
   }
 
   const Target target_;
@@ -338,7 +382,7 @@ class Client::Link {
   std::shared_ptr<void> attempt_;
   std::unique_ptr<Stream> stream_;
   std::array<char, 1 << 16> block_{};
-  FrameReader reader_{longest_answer};
+  FrameReader reader_{longest_answer, Framing::lines};
   std::deque<std::string> outgoing_;
   bool writing_ = false, ending_ = false;
   int generation_ = 0;  // of streams: what an older one calls back with is stale

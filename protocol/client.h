@@ -2,7 +2,7 @@
 // again, or connected to again, and brought back to where it was by sending anew what led there.  A daemon is lost, and
 // its owner told why, after many attempts in vain, and at once where the next attempt would end as the last: a program
 // that is not there, certificates that one side does not accept, a greeting that is refused, a new daemon that refuses
-// what had led the last one to where it was.
+// what had led the last one to where it was, an answer that is not as the protocol has it.
 #pragma once
 
 #include <chrono>

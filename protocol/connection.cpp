@@ -213,7 +213,7 @@ void Connection::write() {
   }
   if (events_.passed) events_.passed(message, false);
   // Before the peer's first byte its framing is not known; only an end without any message comes so early.
-  outgoing_ = framed(message, reader_.framing());
+  outgoing_ = framed(std::move(message), reader_.framing());
   writing_ = true;
   last_written_ = Clock::now();
   stream_->write_all(outgoing_,

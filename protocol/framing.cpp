@@ -158,14 +158,13 @@ void FrameReader::drop(std::size_t bytes) {
   if (buffer_.empty() && buffer_.capacity() > (std::size_t{1} << 16)) buffer_ = {};
 }
 
-std::string framed(std::string_view message, Framing framing) {
-  std::string bytes;
+std::string framed(std::string message, Framing framing) {
   if (framing == Framing::headers) {
-    bytes = "Content-Length: " + std::to_string(message.size()) + "\r\n\r\n";
-    return bytes.append(message);
+    message.insert(0, "Content-Length: " + std::to_string(message.size()) + "\r\n\r\n");
+  } else {
+    message += '\n';
   }
-  bytes.reserve(message.size() + 1);
-  return bytes.append(message).append("\n");
+  return message;
 }
 
 }  // namespace spacetime::protocol

@@ -27,7 +27,9 @@ struct Frame {
 // permitted length, and never makes room for more than has arrived.
 class FrameReader {
  public:
-  explicit FrameReader(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+  // Whoever has spoken first is answered as he spoke: then the framing is known.
+  explicit FrameReader(std::size_t most_bytes, Framing framing = Framing::unknown)
+      : most_bytes_(most_bytes), framing_(framing) {}
 
   void add(std::string_view bytes) { buffer_.append(bytes); }
   std::optional<Frame> next();  // nothing: more bytes are needed
@@ -50,10 +52,10 @@ class FrameReader {
   std::size_t scanned_ = 0;  // from there, how far a line's end has been looked for
   bool skipping_ = false;    // inside a line that is too long
   bool ended_ = false;
-  Framing framing_ = Framing::unknown;
+  Framing framing_;
 };
 
 // The bytes that carry a message.  Text without line ends.
-std::string framed(std::string_view message, Framing framing);
+std::string framed(std::string message, Framing framing);
 
 }  // namespace spacetime::protocol

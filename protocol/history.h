@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "protocol/json.h"
+#include "protocol/strict.h"
 
 namespace spacetime::protocol {
 
@@ -16,8 +16,8 @@ class History {
     std::string method, params;  // params as JSON text
   };
 
-  // Takes note of a request that was answered with this result.
-  void note(std::string_view method, std::string_view params, const Json& result);
+  // Takes note of a request that was answered with this result.  Throws DocumentError where no optimizer answers so.
+  void note(std::string_view method, std::string_view params, const Node& result);
 
   // To be sent one after another, each when the one before has been answered.
   const std::vector<Message>& messages() const { return messages_; }

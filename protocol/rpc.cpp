@@ -52,6 +52,17 @@ std::optional<std::string> id_within(std::string_view text) {
   return (id.is_string() || id.is_number_integer()) && found->size() <= most_id_bytes ? found : std::nullopt;
 }
 
+// One copy of what may be long, with room for what frames it.
+std::string joined(std::initializer_list<std::string_view> parts) {
+  constexpr std::size_t framing = 64;
+  std::size_t size = framing;
+  for (const auto part : parts) size += part.size();
+  std::string whole;
+  whole.reserve(size);
+  for (const auto part : parts) whole += part;
+  return whole;
+}
+
 std::string opened(const std::optional<std::string>& id) {
   return "{\"jsonrpc\":\"2.0\",\"id\":" + id.value_or("null") + ",";
 }
@@ -113,7 +124,7 @@ Request read_request(std::string_view text, std::size_t depth, std::optional<std
 }
 
 std::string answer(const std::optional<std::string>& id, std::string_view result) {
-  return opened(id).append("\"result\":").append(result).append("}");
+  return joined({opened(id), "\"result\":", result, "}"});
 }
 
 std::string answer(const std::optional<std::string>& id, const Error& error) {
@@ -125,17 +136,11 @@ std::string answer(const std::optional<std::string>& id, const Error& error) {
 }
 
 std::string notification(std::string_view method, std::string_view params) {
-  return std::string("{\"jsonrpc\":\"2.0\",\"method\":\"").append(method).append("\",\"params\":").append(params) + "}";
+  return joined({"{\"jsonrpc\":\"2.0\",\"method\":\"", method, "\",\"params\":", params, "}"});
 }
 
 std::string request(std::string_view id, std::string_view method, std::string_view params) {
-  return std::string("{\"jsonrpc\":\"2.0\",\"id\":")
-             .append(id)
-             .append(",\"method\":\"")
-             .append(method)
-             .append("\",\"params\":")
-             .append(params) +
-         "}";
+  return joined({"{\"jsonrpc\":\"2.0\",\"id\":", id, ",\"method\":\"", method, "\",\"params\":", params, "}"});
 }
 
 std::string amount(double number) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "protocol/rpc.h"
+
 namespace spacetime::protocol {
 namespace {
 
@@ -55,6 +57,28 @@ TEST(Framing, MessagesAreThoseThatWereSent) {
   EXPECT_EQ(frames({headers}), (std::vector<std::string>{"{\"a\":1}", "[\n]", "", "{}"}));
   for (const auto framing : {Framing::lines, Framing::headers}) {
     EXPECT_EQ(frames({framed("{\"c\":4}", framing)}), std::vector<std::string>{"{\"c\":4}"});
+  }
+}
+
+TEST(Framing, WhoIsAnsweredInLinesKnowsAHeaderForNone) {
+  FrameReader reader(most, Framing::lines);
+  reader.add("hello\n{}\n");
+  EXPECT_EQ(reader.next()->kind, Frame::Kind::broken);
+  EXPECT_EQ(reader.next()->text, "{}");
+}
+
+TEST(Framing, ALongAnswerIsCopiedOnce) {
+  const std::string result = "{\"long\":\"" + std::string(100'000, 'x') + "\"}";
+  const auto stays = [&](std::string message) {
+    const auto framing = message.size() % 2 == 0 ? Framing::lines : Framing::headers;
+    const char* const begin = message.data();
+    EXPECT_LT(message.capacity(), result.size() + 200);
+    EXPECT_EQ(framed(std::move(message), framing).data(), begin);
+  };
+  for (const std::string method : {"a", "ab"}) {
+    stays(answer(method, result));
+    stays(request("1", method, result));
+    stays(notification(method, result));
   }
 }
 

@@ -1,5 +1,4 @@
 // The client library: daemons that it starts, asks, loses and brings back.
-#include "protocol/client.h"
 
 #include <gtest/gtest.h>
 
@@ -8,44 +7,24 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <future>
-#include <mutex>
 #include <random>
 #include <thread>
 
 #include "common/assert.h"
+#include "tests/wire/clients.h"
 
 namespace spacetime::protocol {
 namespace {
 
 const std::string bin = SPACETIME_BIN_DIR;
-constexpr std::chrono::seconds patience{60};
 
 Target started(const std::string& name) { return {{bin + "/spacetime-" + name, "serve"}, {}, {}}; }
-
-// Asks and waits: for tests alone.
-Reply answer(Client& client, std::string_view method, const Json& params, Client::Progress progress = {}) {
-  const auto promise = std::make_shared<std::promise<Reply>>();
-  auto future = promise->get_future();
-  client.ask(
-      method, params.dump(), [promise](const Reply& reply) { promise->set_value(reply); }, std::move(progress));
-  SPACETIME_ASSERT(future.wait_for(patience) == std::future_status::ready);
-  return future.get();
-}
-
-Json result(Client& client, std::string_view method, const Json& params = Json::object()) {
-  const Reply reply = answer(client, method, params);
-  EXPECT_TRUE(reply.error.is_null()) << method << ": " << reply.error.dump();
-  return reply.result;
-}
 
 const std::string scene = R"(time [0, 2]
 trajectory bspline spans 48
@@ -82,6 +61,10 @@ Json motion_of_a_session(Client& client) {
     result(client, "motion/get", {{"checkpoint", true}});
     act({{"action", "weight"}, {"name", "effort"}, {"weight", 1 + top}});
     act({{"action", "iterate"}, {"iterations", 7}});
+    Json without_sketch = problem();
+    without_sketch["keyframes"] = Json::array();
+    result(client, "problem/update", {{"problem", top == 0.7 ? without_sketch : problem()}});
+    result(client, "motion/get", {{"checkpoint", true}});
     act({{"action", "solve"}});
   }
   Json motion = result(client, "motion/get");
@@ -111,43 +94,6 @@ TEST(Client, AsksAndIsAnswered) {
   EXPECT_EQ(multipliers.back().at("times"), Json::array({2}));
   EXPECT_EQ(multipliers.back().at("values").size(), 1U);
 }
-
-TEST(Client, GivesUpOnAProgramThatIsNotThere) {
-  Client client({{"/nowhere/spacetime-optimizer"}, {}, {}}, {});
-  const Reply reply = answer(client, "motion/get", Json::object());
-  EXPECT_EQ(reply.error["code"], static_cast<int>(Code::internal));
-}
-
-// Every state that a client has been in, with its sentences.
-struct Course {
-  struct Seen {
-    Client::State state;
-    std::string why;
-  };
-  std::mutex mutex;
-  std::condition_variable more;
-  std::vector<Seen> seen;
-
-  Client::Callbacks callbacks() {
-    return {[this](Client::State state, const std::string& why) {
-      const std::lock_guard lock(mutex);
-      seen.push_back({state, why});
-      more.notify_all();
-    }};
-  }
-  // Waits for a state with a sentence that has these words; false where another with a sentence came first.
-  bool next_is(Client::State state, const std::string& words) {
-    std::unique_lock lock(mutex);
-    const auto told = [](const Seen& one) { return !one.why.empty(); };
-    const bool came = more.wait_for(lock, patience, [&] { return std::ranges::any_of(seen, told); });
-    if (!came) return false;
-    const auto found = std::ranges::find_if(seen, told);
-    const bool right = found->state == state && found->why.find(words) != std::string::npos;
-    if (!right) ADD_FAILURE() << "state " << static_cast<int>(found->state) << ": " << found->why;
-    seen.erase(seen.begin(), found + 1);
-    return right;
-  }
-};
 
 // A port of the loopback on which connections are taken and nobody answers.
 class Mute {
@@ -252,25 +198,6 @@ TEST(Client, CanEndWhileItConnects) {
   for (int k = 0; k < 20; ++k) const Client client(secured(mute.port(), keys, keys), {});
 }
 
-TEST(Client, IsLostWhereItsGreetingIsRefused) {
-  // What a daemon of another protocol's version says, and one that is full.
-  const auto says = [](int code, const std::string& why) {
-    const std::string error = R"({"jsonrpc":"2.0","id":0,"error":{"code":)" + std::to_string(code) + R"(,"message":")";
-    return Target{{"/bin/sh", "-c", "read line; echo '" + error + why + "\"}}'; exec cat > /dev/null"}, {}, {}};
-  };
-  {
-    Course course;
-    Client client(says(static_cast<int>(Code::unknown_version), "this daemon speaks version 2"), course.callbacks());
-    EXPECT_TRUE(course.next_is(Client::State::lost, "this daemon speaks version 2"));
-    EXPECT_EQ(answer(client, "motion/get", Json::object()).error["code"], static_cast<int>(Code::internal));
-    EXPECT_EQ(client.process(), 0);
-  }
-  Course course;
-  const Client client(says(static_cast<int>(Code::too_many_sessions), "17 connections"), course.callbacks());
-  EXPECT_TRUE(course.next_is(Client::State::connecting, "17 connections"));
-  EXPECT_TRUE(course.next_is(Client::State::connecting, "17 connections"));
-}
-
 TEST(Client, TalksWithTheDaemonThatItsAuthorityKnowsAlone) {
   const std::string keys = certificates_for("127.0.0.1", "keys"), others = certificates_for("127.0.0.1", "others");
   const Listening daemon(keys);
@@ -304,22 +231,6 @@ TEST(Client, IsLostAtOnceWhereACertificateHasExpiredOrCannotBeRead) {
   EXPECT_EQ(answer(client, "expression/query", Json::object()).error["code"], static_cast<int>(Code::internal));
   const Client without(secured(daemon.port(), "/nowhere", keys), course.callbacks());
   EXPECT_TRUE(course.next_is(Client::State::lost, "cannot use --certificate '/nowhere/client.pem'"));
-}
-
-TEST(Client, IsLostWhereANewDaemonRefusesWhatTheLastOneHasDone) {
-  // The first daemon of a folder loads anything and ends; the next loads nothing.
-  const auto folder = std::filesystem::path(testing::TempDir()) / ("refuses" + std::to_string(getpid()));
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directory(folder);
-  const std::string script = "cd '" + folder.string() + R"('; read line; echo '{"jsonrpc":"2.0","id":0,"result":{}}'
-read line; mkdir loaded 2> /dev/null && echo '{"jsonrpc":"2.0","id":1,"result":{}}' && exit
-echo '{"jsonrpc":"2.0","id":0,"error":{"code":-32005,"message":"not any more"}}'; exec cat > /dev/null)";
-  Course course;
-  Client client({{"/bin/sh", "-c", script}, {}, {}}, course.callbacks());
-  result(client, "problem/load", {{"problem", Json::object()}});
-  EXPECT_TRUE(course.next_is(Client::State::connecting, "the daemon has ended the connection"));
-  EXPECT_TRUE(course.next_is(Client::State::lost, "problem/load: not any more"));
-  EXPECT_EQ(client.process(), 0);
 }
 
 TEST(Client, EndsItsDaemon) {
