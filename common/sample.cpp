@@ -88,6 +88,13 @@ std::vector<double> frame_times(double start, double end, double rate) {
   return times;
 }
 
+std::vector<double> even_times(double start, double end, int count) {
+  std::vector<double> times;
+  for (int k = 0; k < count; ++k)
+    times.push_back(k + 1 == count ? end : start + (end - start) * k / std::max(1, count - 1));
+  return times;
+}
+
 std::vector<double> between(const Samples& samples, const std::vector<std::vector<double>>& rows, double time) {
   const auto after = std::ranges::lower_bound(samples.times, time);
   if (after == samples.times.end()) return rows.back();

@@ -27,6 +27,9 @@ Rows along(const Program& program, const Evaluator& evaluator, const Motion& mot
 Samples sample(const Problem& problem, const Motion& motion, std::span<const double> functionals,
                std::span<const double> times);
 
+// `count` times from start to end, both among them.
+std::vector<double> even_times(double start, double end, int count);
+
 // A row of a table of the samples' at a time, on the line between its neighbours; that of the nearest end outside.
 std::vector<double> between(const Samples& samples, const std::vector<std::vector<double>>& rows, double time);
 

@@ -77,6 +77,7 @@ void apply(State& state, const Play& event, Effects& effects);
 void apply(State& state, const SetPlayback& event, Effects& effects);
 void apply(State& state, const Select& event, Effects& effects);
 void apply(State& state, const Pin& event, Effects& effects);
+void apply(State& state, const ShowSpan& event, Effects& effects);
 void apply(State& state, const SetPose& event, Effects& effects);
 void apply(State& state, const CopyPose& event, Effects& effects);
 void apply(State& state, const PastePose& event, Effects& effects);

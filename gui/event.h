@@ -74,6 +74,9 @@ struct Pin {  // the pose at a time is shown, pale, whatever the time
   double time = 0;
   bool on = true;
 };
+struct ShowSpan {  // of time, in which curves are looked at: samples are to be fine there
+  double from = 0, to = 0;
+};
 struct SetPose {  // absent: none
   std::optional<Pose> pose;
 };
@@ -180,12 +183,13 @@ struct Restored {  // entries with their texts alone in `scene`
   std::vector<Entry> log;
   int present = 0;
   std::vector<std::string> script;
+  std::vector<double> pins{};  // s, rising
 };
 
 using Event = std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Pause, Continue, Undo, Redo, GoTo,
-                           Steer, Steered, DropGhost, Ask, Play, SetPlayback, Select, Pin, SetPose, CopyPose, PastePose,
-                           KeyPose, Draft, SetTheme, Dismiss, Tick, DaemonIs, Compiled, Iterated, Done, Reached,
-                           Sampled, Answered, Acknowledged, Refused, FileRead, FileFailed, FileWritten, FileChanged,
-                           SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
+                           Steer, Steered, DropGhost, Ask, Play, SetPlayback, Select, Pin, ShowSpan, SetPose, CopyPose,
+                           PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick, DaemonIs, Compiled, Iterated, Done,
+                           Reached, Sampled, Answered, Acknowledged, Refused, FileRead, FileFailed, FileWritten,
+                           FileChanged, SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
 
 }  // namespace spacetime::gui

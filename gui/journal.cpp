@@ -79,6 +79,11 @@ struct Reading {
       restored.present = line["present"].integer(0, static_cast<int>(restored.log.size()) - 1);
       return;
     }
+    if (const auto pins = line.find("pins")) {
+      line.object({"pins"});
+      restored.pins = pins->numbers();
+      return;
+    }
     line.object({"saved", "file"});
     restored.saved = line["saved"].string();
     restored.file = line["file"].string();
@@ -127,6 +132,15 @@ std::string journal_saved(const State& state) {
   to.object([&] {
     to.member("saved", state.saved);
     to.member("file", state.file);
+  });
+  return to.take();
+}
+
+std::string journal_pins(const State& state) {
+  Writer to(false);
+  to.object([&] {
+    to.key("pins");
+    to.numbers(state.pins);
   });
   return to.take();
 }

@@ -6,6 +6,7 @@
 //   {"checkpoint":n,"motion":{...}}  where the entry of that number led
 //   {"present":i}                    the entry that is shown
 //   {"saved":T,"file":F}             what the file holds
+//   {"pins":[t, ...]}                times, s, at which ghosts are pinned
 // A line that is cut short, or that makes no sense, ends what is read.
 #pragma once
 
@@ -23,6 +24,7 @@ std::string journal_entry(const Entry& entry, const Scene& before, std::size_t i
 std::string journal_checkpoint(const Entry& entry);
 std::string journal_present(int index);
 std::string journal_saved(const State& state);
+std::string journal_pins(const State& state);
 
 // The session as the journal leaves it.  Entries behind the last that a checkpoint is known of become lines of the
 // script: they are to be performed again.  Throws InputError where not even the beginning can be read.

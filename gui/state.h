@@ -136,12 +136,13 @@ struct State {
   std::shared_ptr<const Scene> scene;  // of the present entry, or the opened text with its mistakes
 
   // The motion.
-  std::shared_ptr<const Curves> curves;    // newest; null before there is a problem
-  std::shared_ptr<const Curves> ghost;     // the motion before the last edit, while it is shown
-  std::shared_ptr<const Motion> motion;    // the last whole motion: status, terms, violations, multipliers
-  std::shared_ptr<const Samples> samples;  // of all plots, evenly over the time, of `curves` or shortly before
-  Record record;                           // of the run that goes on, or of the last one
-  long revision = 0;                       // counts every change of `curves`
+  std::shared_ptr<const Curves> curves;  // newest; null before there is a problem
+  std::shared_ptr<const Curves> ghost;   // the motion before the last edit, while it is shown
+  std::shared_ptr<const Motion> motion;  // the last whole motion: status, terms, violations, multipliers
+  // Of all plots, of `curves` or shortly before: evenly over the time, and finer over the span that is shown.
+  std::shared_ptr<const Samples> samples;
+  Record record;      // of the run that goes on, or of the last one
+  long revision = 0;  // counts every change of `curves`
 
   // What goes on.
   bool running = false;   // a solve or iterate
@@ -161,7 +162,8 @@ struct State {
 
   // How it is looked at.
   Playback playback;
-  std::vector<double> pins;  // s, rising: ghosts of the figure at these times
+  std::vector<double> pins;              // s, rising: ghosts of the figure at these times
+  std::pair<double, double> span{0, 0};  // s, of the time that curves are shown of; as long as it is empty, all of it
   Selection selection;
   bool dark = true;
   std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation; "" is a new one

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/sample.h"
 #include "gui/apply.h"
 #include "gui/journal.h"
 #include "protocol/writer.h"
@@ -12,26 +13,38 @@ namespace {
 // How often samples are refreshed while the motion changes, s, and how many there are.
 constexpr double sample_pause = 0.2;
 constexpr int sample_count = 201;
+constexpr int span_count = 401;  // more where less than all is shown: one for every few pixels
+
+// Rising; those of the whole that come near the span's give way to them, since slopes are worked out by differences.
+std::vector<double> sample_times(const Problem& problem, std::pair<double, double> span) {
+  const std::vector<double> whole = even_times(problem.start, problem.end, sample_count);
+  const double from = std::max(span.first, problem.start), to = std::min(span.second, problem.end);
+  if (!(from < to) || (from == problem.start && to == problem.end)) return whole;
+  const double near = (to - from) / (span_count - 1) / 2;
+  std::vector<double> times;
+  for (const double t : whole)
+    if (t < from - near) times.push_back(t);
+  for (const double t : even_times(from, to, span_count)) times.push_back(t);
+  for (const double t : whole)
+    if (t > to + near) times.push_back(t);
+  return times;
+}
 
 void sample(State& state, Effects& effects) {
   Work& work = state.work;
   const bool there = work.run || (work.drag && work.drag->begun) || work.at == state.log[state.present].number;
-  if (work.sample || !state.curves || work.sampled == state.revision || !there || work.going) return;
+  const bool known = work.sampled == state.revision && work.sampled_span == state.span;
+  if (work.sample || !state.curves || known || !there || work.going) return;
   if (state.clock < work.next_time || state.optimizer.condition != Daemon::Condition::ready) return;
-  const Problem& problem = *state.scene->problem;
   Writer times(false);
-  times.list([&] {
-    for (int i = 0; i + 1 < sample_count; ++i) {
-      times.number(problem.start + (problem.end - problem.start) * i / (sample_count - 1));
-    }
-    times.number(problem.end);
-  });
+  times.numbers(sample_times(*state.scene->problem, state.span));
   Request request;
   request.method = "sample";
   request.params = "\"times\":" + times.take();
   request.answer = Request::Answer::sampled;
   work.sample = ask(state, effects, std::move(request), {Wanted::Kind::sample});
   work.sampled = state.revision;
+  work.sampled_span = state.span;
   work.next_time = state.clock + sample_pause;
 }
 

@@ -195,7 +195,10 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       state.paused.reset();
       state.stopping = false;
       begin_record(state);
-      state.ghost = state.ghost ? state.ghost : state.curves;
+      if (!state.ghost || work.ghosted != work.began) {
+        state.ghost = state.curves;
+        work.ghosted = 0;
+      }
       work.job = {};
       return;
     }
@@ -266,6 +269,7 @@ void finish_task(State& state, Effects& effects) {
     state.record.edits.push_back(state.record.iterations.back().iteration);
   work.job = {};
   append(state, std::move(entry), task.merge, true, effects);
+  if (!work.run) work.ghosted = state.log.back().number;
   if (work.run) ask_motion(state, effects, {Kind::look});  // what a set constant is worth
 }
 

@@ -117,7 +117,9 @@ void finish_run(State& state, const Done& event, Effects& effects) {
   int iterations = 0;
   for (const Logged& logged : event.log) iterations += iterations_in(logged.action);
   const std::string rest = rest_line(work.action, iterations);
-  if (!rest.empty()) state.paused = {state.log.back().number, rest, work.scripted};
+  if (rest.empty()) return;
+  state.paused = {state.log.back().number, rest, work.scripted};
+  work.ghosted = state.log.back().number;  // it goes on, and so does what it began from
 }
 
 }  // namespace
@@ -276,6 +278,7 @@ void apply(State& state, const Refused& event, Effects& effects) {
       if (--work.job.unanswered == 0) refuse_task(state, event.message, effects);
       return;
     case Kind::run:
+      if (work.ghosted != work.began) state.ghost = nullptr;  // nothing has changed
       end_run(state);
       work.scripting = false;
       return tell(Place::optimisation, event.message);

@@ -229,6 +229,8 @@ void apply(State& state, const Restored& event, Effects& effects) {
     if (entry.checkpoint) effects.push_back(JournalLine{journal_checkpoint(entry)});
   }
   effects.push_back(JournalLine{journal_present(state.present)});
+  state.pins = event.pins;
+  effects.push_back(JournalLine{journal_pins(state)});
   effects.push_back(JournalDrop{event.journal, true});
 }
 

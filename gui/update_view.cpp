@@ -4,6 +4,7 @@
 
 #include "common/bspline.h"
 #include "gui/apply.h"
+#include "gui/journal.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
@@ -35,12 +36,15 @@ void apply(State& state, const SetPlayback& event, Effects&) { state.playback = 
 
 void apply(State& state, const Select& event, Effects&) { state.selection = event.selection; }
 
-void apply(State& state, const Pin& event, Effects&) {
+void apply(State& state, const Pin& event, Effects& effects) {
   const auto there = [&](double time) { return std::abs(time - event.time) < same_time; };
   std::erase_if(state.pins, there);
-  if (!event.on || state.pins.size() >= most_pins) return;
-  state.pins.insert(std::ranges::upper_bound(state.pins, event.time), event.time);
+  if (event.on && state.pins.size() < most_pins)
+    state.pins.insert(std::ranges::upper_bound(state.pins, event.time), event.time);
+  effects.push_back(JournalLine{journal_pins(state)});
 }
+
+void apply(State& state, const ShowSpan& event, Effects&) { state.span = {event.from, event.to}; }
 
 void apply(State& state, const SetPose& event, Effects&) { state.pose = event.pose; }
 
@@ -73,6 +77,10 @@ void apply(State& state, const KeyPose&, Effects& effects) {
   std::vector<std::pair<std::string, double>> keys(state.pose->values.begin(), state.pose->values.end());
   const std::string line = key_words(state.playback.time, keys).line;
   state.pose.reset();
+  notify(state,
+         {.place = Place::view,
+          .text = "Keyed as a starting guess: Run may move it. What the pose has to be is a constraint's to say.",
+          .until = state.clock + note_seconds});
   apply(state, Act{line, Place::timeline, ""}, effects);
 }
 

@@ -94,6 +94,7 @@ struct Work {
   bool unseen = false;     // the person has gone elsewhere meanwhile
   bool discarded = false;  // nothing is to be left of it
   int recorded = 0;        // number of the entry that the run of State::record ended in
+  int ghosted = 0;         // ... of the entry that State::ghost is the motion before: a run that begins there leaves it
 
   // Where the optimizer stands: number of an entry; 0: unknown.
   int at = 0;
@@ -120,9 +121,10 @@ struct Work {
   std::string overwrite;  // the file that others changed, of which was told: saving again replaces it
 
   // Samples.
-  int sample = 0;        // the request; 0: none
-  long sampled = -1;     // State::revision of the last asked for
-  double next_time = 0;  // State::clock from which the next may be asked for
+  int sample = 0;                                // the request; 0: none
+  long sampled = -1;                             // State::revision of the last asked for, and
+  std::pair<double, double> sampled_span{0, 0};  // State::span
+  double next_time = 0;                          // State::clock from which the next may be asked for
 };
 
 }  // namespace spacetime::gui

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sample.h"
+
 namespace spacetime::gui {
 namespace {
 

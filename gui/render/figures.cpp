@@ -263,11 +263,4 @@ float ground_height(const Box& bounds) {
 
 bool planar(const Box& bounds) { return bounds.size().z < 0.25F * std::max(bounds.size().x, bounds.size().y); }
 
-std::vector<double> even_times(double start, double end, int count) {
-  std::vector<double> times;
-  for (int k = 0; k < count; ++k)
-    times.push_back(k + 1 == count ? end : start + (end - start) * k / std::max(1, count - 1));
-  return times;
-}
-
 }  // namespace spacetime::gui

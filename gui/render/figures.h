@@ -78,7 +78,4 @@ float ground_height(const Box& bounds);
 // Whether all that moves stays in a plane that is seen from the front.
 bool planar(const Box& bounds);
 
-// `count` times from start to end, both among them.
-std::vector<double> even_times(double start, double end, int count);
-
 }  // namespace spacetime::gui

@@ -85,6 +85,26 @@ TEST(HubJournal, BringsBackLogMotionsAndPlaceWithoutSolving) {
       hub, [&](const State&) { return journals(folder).empty(); }, "the journal to go");
 }
 
+// Pinned ghosts are no lines of the log, and are found again all the same: as they were left, twice over.
+TEST(HubJournal, KeepsPinnedGhosts) {
+  const std::string folder = scratch("pins");
+  {
+    Hub hub(daemons(folder));
+    post_and_wait(hub, OpenText{text_of("examples/double_integrator.scene")});
+    act(hub, "iterate 1");
+    for (const double time : {0.75, 0.25, 0.5}) hub.post(Pin{time, true});
+    hub.post(Pin{0.5, false});
+    hub.step(0);
+  }
+  for (int again = 0; again < 2; ++again) {
+    Hub hub(daemons(folder));
+    until(
+        hub, [](const State& state) { return !state.left.empty(); }, "what was left behind");
+    restore(hub, hub.state().left[0].journal);
+    EXPECT_EQ(hub.state().pins, (std::vector<double>{0.25, 0.75}));
+  }
+}
+
 // What somebody else wrote into its file while it was gone is told of, and not written over unasked.
 TEST(HubJournal, KnowsWhetherItsFileWasChangedMeanwhile) {
   for (const bool changed : {false, true}) {

@@ -1,6 +1,9 @@
 // How the session is looked at: notices, samples, poses, playback.
 #include <cmath>
+#include <functional>
 
+#include "protocol/json.h"
+#include "protocol/strict.h"
 #include "tests/gui/table.h"
 
 namespace spacetime::gui {
@@ -47,6 +50,79 @@ TEST(Update, ASamplesAnswerIsAwaitedBeforeTheNextIsAsked) {
   }
   EXPECT_EQ(table.count("sample"), 1);
   EXPECT_EQ(table.state.record.iterations.size(), 100U);  // with where it began
+}
+
+// The span that is looked at has more samples; while one answer is awaited no more is asked, however it is zoomed.
+TEST(Update, SamplesAreFineWhereTheCurvesAreLookedAt) {
+  Table table;
+  table.state.optimizer.condition = Daemon::Condition::ready;
+  table.open();
+  table.feed(Tick{1});
+  const auto times_of = [](const Request& request) {
+    const Json json = parse(request.params.substr(request.params.find('[')), "times");
+    return Node(json, "times").numbers();
+  };
+  const auto answer = [&](const Request& request) {
+    auto samples = std::make_shared<Samples>();
+    samples->times = times_of(request);
+    table.feed(Sampled{request.number, samples});
+  };
+  const Request whole = table.take("sample");
+  EXPECT_EQ(times_of(whole).size(), 201U);
+  for (int k = 0; k < 50; ++k) {
+    table.feed(ShowSpan{0.5 + 1e-3 * k, 0.6});
+    table.feed(Tick{0.1});
+  }
+  EXPECT_EQ(table.count("sample"), 0);
+  answer(whole);
+  table.feed(Tick{1});
+  const Request zoomed = table.take("sample");
+  const std::vector<double> times = times_of(zoomed);
+  EXPECT_EQ(times.front(), 0);
+  EXPECT_EQ(times.back(), 1);
+  EXPECT_TRUE(std::ranges::is_sorted(times, std::less_equal{}));
+  EXPECT_GE(std::ranges::count_if(times, [](double t) { return t >= 0.549 && t <= 0.6; }), 401);  // the newest span
+  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_GT(times[i] - times[i - 1], 1e-5);
+  answer(zoomed);
+  table.feed(Tick{1});
+  EXPECT_EQ(table.count("sample"), 0);  // it is known
+  table.feed(ShowSpan{0, 1});
+  table.feed(Tick{1});
+  EXPECT_EQ(times_of(table.take("sample")).size(), 201U);
+}
+
+// The ghost is the motion before what was done last; it goes with that.
+TEST(Update, TheGhostIsOfTheLastEditOrRun) {
+  Table table;
+  table.open();
+  const auto ghost = [&] { return table.state.ghost ? table.state.ghost->dofs.at(0).coefficients[0] : NAN; };
+  const auto run = [&](int iterations) {
+    const Request request = table.solve();
+    table.done(request, {{request.params.substr(9), "solve"}}, true);
+    table.reach(iterations);
+  };
+  table.set();
+  table.reach(1);
+  EXPECT_EQ(ghost(), 0);
+  run(2);
+  EXPECT_EQ(ghost(), 0);  // a run that follows an edit belongs to it
+  run(3);
+  EXPECT_EQ(ghost(), 2);
+  run(4);
+  EXPECT_EQ(ghost(), 3);
+  table.feed(Undo{});
+  EXPECT_FALSE(table.state.ghost);
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  table.set();
+  table.reach(5);
+  EXPECT_EQ(ghost(), 3);
+  table.feed(DropGhost{});
+  EXPECT_FALSE(table.state.ghost);
+  const Request refused = table.solve();
+  EXPECT_EQ(ghost(), 5);
+  table.feed(Refused{refused.number, "no"});
+  EXPECT_FALSE(table.state.ghost);  // nothing has changed
 }
 
 // A run that goes on where the last one ended continues its plot; one after an edit begins another, and going back in
@@ -114,6 +190,9 @@ TEST(Update, PosesAreCopiedMirroredAndKeyed) {
   table.feed(SetPose{Pose{{{"head", 0.25}}}});
   table.feed(KeyPose{});
   EXPECT_FALSE(table.state.pose);
+  ASSERT_FALSE(table.state.notices.empty());
+  EXPECT_EQ(table.state.notices.back().place, Notice::Place::view);
+  EXPECT_NE(table.state.notices.back().text.find("guess"), std::string::npos);
   EXPECT_EQ(table.take("scene/compile").text, "time\nkey 0.5: head = 0.25\n");
 }
 
