@@ -1,6 +1,7 @@
 #include "gui/inverse_kinematics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -61,6 +62,24 @@ glm::dvec3 BodyPose::place(const Moment& moment, const glm::dvec3& p) const {
   glm::dvec3 out;
   for (int row = 0; row < 3; ++row) out[row] = m(row, 0) * p.x + m(row, 1) * p.y + m(row, 2) * p.z + m(row, 3);
   return out;
+}
+
+// All bodies of a creature share a program, so that its inputs tell nothing: the operations are walked back from the
+// body's own outputs.
+std::set<std::string> moving(const Problem& problem, const Body& body) {
+  const Program& program = problem.programs.at(body.program);
+  std::vector<char> needed(static_cast<std::size_t>(program.value_count()), 0);
+  for (const int output : body.outputs) needed[static_cast<std::size_t>(program.values[output])] = 1;
+  const auto first = static_cast<std::size_t>(program.first_operation());
+  for (std::size_t k = program.op.size(); k-- > 0;) {
+    if (!needed[first + k]) continue;
+    const std::array operands{program.a[k], program.b[k], program.c[k]};
+    for (int i = 0; i < info(program.op[k]).arity; ++i) needed[static_cast<std::size_t>(operands[i])] = 1;
+  }
+  std::set<std::string> dofs;
+  for (std::size_t i = 0; i < program.inputs.size(); ++i)
+    if (needed[i] && program.inputs[i].kind == InputKind::dof) dofs.insert(program.inputs[i].name);
+  return dofs;
 }
 
 std::map<std::string, double> reach(const Problem& problem, const Body& body, Moment moment, const glm::dvec3& point,

@@ -4,6 +4,7 @@
 
 #include <glm/vec3.hpp>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ class BodyPose {
   const std::vector<int>& outputs_;
   Evaluator evaluator_;
 };
+
+// The degrees of freedom that the body's pose depends on: those of the joints before it.
+std::set<std::string> moving(const Problem& problem, const Body& body);
 
 // The degrees of freedom of `moment` changed so that the point comes as near to `target` as those in `free` allow;
 // bounds of the degrees of freedom are kept.

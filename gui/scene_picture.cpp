@@ -36,10 +36,8 @@ void add_trails(const State& state, const Problem& problem, const Figures& figur
 // The first body that a degree of freedom moves: the one behind its joint.
 const Body* moved_by(const Problem& problem, const std::string& dof) {
   for (const Body& body : problem.bodies) {
-    const auto& inputs = problem.programs.at(body.program).inputs;
-    const auto is_it = [&](const Input& input) { return input.kind == InputKind::dof && input.name == dof; };
     // A dof beside those of the body's own creature would move others as well.
-    if (creature_of(body.name) == creature_of(dof) && std::ranges::any_of(inputs, is_it)) return &body;
+    if (creature_of(body.name) == creature_of(dof) && moving(problem, body).contains(dof)) return &body;
   }
   return nullptr;
 }

@@ -77,10 +77,9 @@ void apply(State& state, const KeyPose&, Effects& effects) {
   std::vector<std::pair<std::string, double>> keys(state.pose->values.begin(), state.pose->values.end());
   const std::string line = key_words(state.playback.time, keys).line;
   state.pose.reset();
-  notify(state,
-         {.place = Place::view,
-          .text = "Keyed as a starting guess: Run may move it. What the pose has to be is a constraint's to say.",
-          .until = state.clock + note_seconds});
+  notify(state, {.place = Place::view,
+                 .text = "Keyed as a starting guess: Run may move it. To hold the pose, add a constraint.",
+                 .until = state.clock + note_seconds});
   apply(state, Act{line, Place::timeline, ""}, effects);
 }
 

@@ -1,6 +1,10 @@
 #include "gui/words.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -174,6 +178,24 @@ Action as_solve(Action action) {
 
 bool same_action(const std::string& a, const std::string& b) {
   return as_solve(placed(a).action) == as_solve(placed(b).action);
+}
+
+std::string brief(std::string_view line) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto names = [&](char c) {
+    return is_digit(c) || c == '_' || c == '.' || std::isalpha(static_cast<unsigned char>(c));
+  };
+  std::string text;
+  for (std::size_t i = 0; i < line.size();) {
+    const bool begins = is_digit(line[i]) && (i == 0 || !names(line[i - 1]));
+    double number = 0;
+    const char* end = begins ? std::from_chars(&line[i], line.data() + line.size(), number).ptr : &line[i] + 1;
+    const std::string_view part = line.substr(i, static_cast<std::size_t>(end - &line[i]));
+    const bool whole = std::ranges::all_of(part, is_digit);
+    text += begins && !whole ? fmt::format("{:.4g}", number) : std::string(part);
+    i += part.size();
+  }
+  return text;
 }
 
 std::string trimmed(std::string_view text) {

@@ -56,6 +56,9 @@ bool is_of_many_starts(const std::string& action_json);
 // Whether two JSON texts ask for the same; places do not count.
 bool same_action(const std::string& a, const std::string& b);
 
+// The line with its numbers to four significant digits: to be looked at, not to be read again.
+std::string brief(std::string_view line);
+
 // Without spaces and line ends at its ends.
 std::string trimmed(std::string_view text);
 

@@ -104,4 +104,16 @@ int pick(const Picture& picture, const Ray& ray) {
   return id;
 }
 
+float distance(const Solid& solid, const glm::vec3& world) {
+  const glm::vec3 point(glm::inverse(solid.pose) * glm::vec4(world, 1));
+  if (solid.shape == Solid::Shape::box) {
+    const glm::vec3 off = glm::abs(point) - 0.5F * solid.extent;
+    return glm::length(glm::max(off, 0.0F)) + std::fmin(std::fmax(off.x, std::fmax(off.y, off.z)), 0.0F);
+  }
+  const glm::vec3 end = solid.shape == Solid::Shape::capsule ? solid.extent : glm::vec3(0);
+  const float square = glm::dot(end, end);
+  const float along = square > 0 ? glm::clamp(glm::dot(point, end) / square, 0.0F, 1.0F) : 0.0F;
+  return glm::length(point - along * end) - solid.radius;
+}
+
 }  // namespace spacetime::gui

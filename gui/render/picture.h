@@ -98,4 +98,7 @@ struct Ray {
 };
 int pick(const Picture& picture, const Ray& ray);
 
+// Of a point from a solid's surface, m; negative inside.
+float distance(const Solid& solid, const glm::vec3& point);
+
 }  // namespace spacetime::gui

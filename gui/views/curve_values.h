@@ -10,24 +10,23 @@
 
 namespace spacetime::gui {
 
-struct Curve {
+struct Plotted {
   std::string name{};   // in the legend
   std::string whole{};  // with its derivative, where something is told of it
   std::string of{};     // the degree of freedom, expression or constraint
   ImVec4 colour{};
   std::vector<double> times{}, values{};  // s; rising times
   int derivative = 0;
-  bool dotted = false;  // a ghost, or a component
+  bool before = false;  // of the motion that the ghost shows
   bool points = false;  // only at these times, nothing between them
-  int mark = 0;         // points' shape: disc, ring, square, diamond
+  int style = 0;        // of the line, or the points (pen.h)
 };
 
-constexpr int marks = 4;
+// As CurvesMemory asks for, over the time that is shown.  No two names look alike, as long as there are no more of them
+// than colours in all styles.
+std::vector<Plotted> curves_shown(const Ui& ui);
 
-// As CurvesMemory asks for, over the time that is shown.
-std::vector<Curve> curves_shown(const Ui& ui);
-
-// Where there are none: why.
-const char* why_none(const Ui& ui);
+// Of what is asked for, what there is nothing to draw of, and why; empty where nothing lacks.
+std::string what_lacks(const Ui& ui);
 
 }  // namespace spacetime::gui

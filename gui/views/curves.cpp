@@ -10,6 +10,7 @@
 #include "common/bspline.h"
 #include "gui/views/curve_values.h"
 #include "gui/views/freedoms.h"
+#include "gui/views/pen.h"
 #include "gui/views/plot_frame.h"
 #include "gui/views/selection_tools.h"
 #include "gui/words.h"
@@ -19,9 +20,10 @@ namespace {
 
 constexpr int legend_rows = 2;
 
-void fit(PlotFrame& frame, const std::vector<Curve>& curves) {
+// So that all is seen at the times shown, below `head` pixels for the names.
+void fit(PlotFrame& frame, const std::vector<Plotted>& curves, float head) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Curve& curve : curves) {
+  for (const Plotted& curve : curves) {
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       const double v = curve.values[i];
       if (!std::isfinite(v) || curve.times[i] < frame.left || curve.times[i] > frame.right) continue;
@@ -34,53 +36,71 @@ void fit(PlotFrame& frame, const std::vector<Curve>& curves) {
   frame.bottom = low - room;
   frame.top = high + room;
   if (high - low < 1e-9) frame.bottom = low - 1, frame.top = high + 1;
+  const double share = head / std::max(2 * head, frame.size.y);
+  frame.top += share / (1 - share) * (frame.top - frame.bottom);
 }
 
-void draw_mark(ImDrawList& list, const ImVec2& at, int mark, ImU32 colour, float r) {
-  if (mark == 0) list.AddCircleFilled(at, r, colour);
-  if (mark == 1) list.AddCircle(at, r, colour, 12, 1.5F);
-  if (mark == 2) list.AddRect({at.x - r, at.y - r}, {at.x + r, at.y + r}, colour, 0, 0, 1.5F);
-  if (mark == 3) list.AddQuad({at.x - r, at.y}, {at.x, at.y - r}, {at.x + r, at.y}, {at.x, at.y + r}, colour, 1.5F);
-}
+constexpr std::size_t few = 3;  // points: so lonely that they are drawn larger, with their values
 
-void draw(ImDrawList& list, const PlotFrame& frame, const Curve& curve, float scale) {
-  const float width = scale * (curve.derivative == 0 ? 2.0F : 1.2F);
-  if (curve.points) {
-    for (std::size_t i = 0; i < curve.times.size(); ++i)
-      draw_mark(list, {frame.x(curve.times[i]), frame.y(curve.values[i])}, curve.mark, packed(curve.colour),
-                2.5F * scale);
-    return;
+void draw_points(Ui& ui, ImDrawList& list, const PlotFrame& frame, const Plotted& curve) {
+  const bool lonely = curve.times.size() <= few;
+  const float radius = ui.scaled(lonely ? 4 : 2.5F);
+  for (std::size_t i = 0; i < curve.times.size(); ++i) {
+    if (!std::isfinite(curve.values[i])) continue;
+    const ImVec2 at{frame.x(curve.times[i]), frame.y(curve.values[i])};
+    draw_point(list, at, curve.style, packed(curve.colour), radius);
   }
+}
+
+void draw(Ui& ui, ImDrawList& list, const PlotFrame& frame, const Plotted& curve) {
+  if (curve.points) return draw_points(ui, list, frame, curve);
+  const float width = ui.scaled(curve.derivative == 0 ? 2.0F : 1.2F);
+  // What is beside the plot is left out but for the neighbours of what is in it.
+  const auto& times = curve.times;
+  const auto first = std::ranges::lower_bound(times, frame.left) - times.begin();
+  const auto last = std::ranges::upper_bound(times, frame.right) - times.begin();
+  const auto begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, first - 1));
+  const auto end = std::min(times.size(), static_cast<std::size_t>(last) + 1);
   std::vector<ImVec2> points;
   const auto stroke = [&] {
-    if (curve.dotted) {
-      for (std::size_t i = 0; i + 1 < points.size(); i += 6)
-        list.AddPolyline(&points[i], static_cast<int>(std::min<std::size_t>(4, points.size() - i)),
-                         packed(curve.colour), 0, width);
-    } else if (!points.empty()) {
-      list.AddPolyline(points.data(), static_cast<int>(points.size()), packed(curve.colour), 0, width);
-    }
+    draw_line(list, points, curve.style, packed(curve.colour), width, ui.memory.scale);
     points.clear();
   };
-  for (std::size_t i = 0; i < curve.times.size(); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     if (std::isfinite(curve.values[i]))
-      points.push_back({frame.x(curve.times[i]), frame.y(curve.values[i])});
+      points.push_back({frame.x(times[i]), frame.y(curve.values[i])});
     else
       stroke();
   }
   stroke();
 }
 
+// Where there are so few points in all that their values find room.
+void draw_values(Ui& ui, ImDrawList& list, const PlotFrame& frame, const std::vector<Plotted>& curves) {
+  std::size_t count = 0;
+  for (const Plotted& curve : curves) count += curve.times.size();
+  if (count > few) return;
+  for (const Plotted& curve : curves) {
+    for (std::size_t i = 0; i < curve.times.size(); ++i) {
+      const std::string text = shown(curve.values[i]) + " at " + shown(curve.times[i]) + " s";
+      const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+      const float x = frame.x(curve.times[i]), right = frame.corner.x + frame.size.x, gap = ui.scaled(9);
+      const float left = x + gap + size.x < right ? x + gap : x - gap - size.x;
+      list.AddText({left, frame.y(curve.values[i]) - size.y / 2}, packed(ui.colours().faint), text.c_str());
+    }
+  }
+}
+
 // A point of a curve near the mouse.
 struct Near {
-  const Curve* curve = nullptr;
+  const Plotted* curve = nullptr;
   double time = 0, value = 0;
 };
 
-std::optional<Near> nearest(const PlotFrame& frame, const std::vector<Curve>& curves, const ImVec2& mouse,
+std::optional<Near> nearest(const PlotFrame& frame, const std::vector<Plotted>& curves, const ImVec2& mouse,
                             float reach) {
   std::optional<Near> best;
-  for (const Curve& curve : curves) {
+  for (const Plotted& curve : curves) {
     const auto seen = [&](std::size_t i) { return ImVec2{frame.x(curve.times[i]), frame.y(curve.values[i])}; };
     for (std::size_t i = 0; i < curve.times.size(); ++i) {
       const std::size_t next = curve.points || i + 1 == curve.times.size() ? i : i + 1;
@@ -264,16 +284,22 @@ void zoom(Ui& ui, const PlotFrame& frame) {
 // The names of curves in the upper rows of the plot.
 struct Names {
   std::vector<Name> all;
-  std::vector<const Curve*> of;
+  std::vector<const Plotted*> of;
   Legend legend;
 };
 
-Names names_of(Ui& ui, const PlotFrame& frame, const std::vector<Curve>& curves) {
+Names names_of(Ui& ui, const PlotFrame& frame, const std::vector<Plotted>& curves) {
   Names names;
-  for (const Curve& curve : curves) {
-    if (std::ranges::find(names.all, curve.name, &Name::text) != names.all.end()) continue;
-    names.all.push_back({curve.name, curve.colour});
+  for (const Plotted& curve : curves) {
+    if (curve.before || std::ranges::find(names.all, curve.name, &Name::text) != names.all.end()) continue;
+    names.all.push_back(
+        {curve.name, curve.colour, {curve.points ? Sample::Kind::point : Sample::Kind::line, curve.style}});
     names.of.push_back(&curve);
+  }
+  const auto before = std::ranges::find(curves, true, &Plotted::before);
+  if (before != curves.end()) {
+    names.all.push_back({"before", ui.colours().faint, {Sample::Kind::line, before->style}});
+    names.of.push_back(nullptr);
   }
   const ImVec2 corner{frame.corner.x + 8, frame.corner.y + 3};
   names.legend = arrange(names.all, corner, frame.size.x - 16, legend_rows, ui.scaled(14));
@@ -296,7 +322,11 @@ bool take_names(Ui& ui, const Names& names) {
     ui.help(rest.c_str());
     return true;
   }
-  const Curve& curve = *names.of[index];
+  if (!names.of[index]) {
+    ui.help("Pale and dashed: before the last edit or run, as the ghost. Accept puts it away.");
+    return true;
+  }
+  const Plotted& curve = *names.of[index];
   const bool constraint = ui.memory.curves.show != CurvesMemory::Show::curves;
   const bool dof = !constraint && is_among(ui.state.selection.dofs, curve.of);
   if (dof) ui.help("Click to select it alone; Ctrl+click to leave it out.");
@@ -326,7 +356,8 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
   const auto curves = curves_shown(ui);
   const State& s = ui.state;
   PlotFrame frame{{axis.left, at.y + 4}, {axis.right - axis.left, height - below - 6}, axis.from, axis.to, 0, 1};
-  fit(frame, curves);
+  const Names names = names_of(ui, frame, curves);
+  fit(frame, curves, names.legend.height);
   CurvesMemory& m = ui.memory.curves;
   if (m.high > m.low) frame.bottom = m.low, frame.top = m.high;
   const bool hovered = ImGui::IsItemHovered();
@@ -334,8 +365,11 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   draw_scales(list, frame, ui.colours());
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
-  for (const Curve& curve : curves) draw(list, frame, curve, ui.memory.scale);
-  const Names names = names_of(ui, frame, curves);
+  for (const Plotted& curve : curves) draw(ui, list, frame, curve);
+  draw_values(ui, list, frame, curves);
+  list.PopClipRect();
+  draw_cursor(ui, axis, at.y, at.y + height);
+  list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
   const bool over_names = hovered && take_names(ui, names);
   bool busy = over_names;
   if (s.curves && m.show == CurvesMemory::Show::curves) busy |= draw_controls(ui, list, frame, hovered && !over_names);
@@ -345,8 +379,10 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
     if (const auto near = nearest(frame, curves, ImGui::GetIO().MousePos, ui.scaled(9)))
       draw_reading(ui, list, frame, *near);
   }
+  m.lacking = what_lacks(ui);
+  const float low = curves.empty() ? 6 : frame.size.y - ImGui::GetFontSize() - 4;
+  list.AddText({frame.corner.x + 8, frame.corner.y + low}, packed(ui.colours().faint), m.lacking.c_str());
   list.PopClipRect();
-  if (curves.empty()) list.AddText({frame.corner.x + 8, frame.corner.y + 6}, packed(ui.colours().faint), why_none(ui));
 }
 
 }  // namespace spacetime::gui

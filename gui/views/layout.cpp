@@ -66,6 +66,7 @@ void draw_window(Ui& ui, SceneView& scene) {
   Memory& m = ui.memory;
   m.places.clear();
   m.helped.clear();
+  m.helping = false;
   refresh(ui);
   take_keys(ui);
   // A scene with mistakes shows them.

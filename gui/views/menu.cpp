@@ -102,7 +102,8 @@ void draw_edit_menu(Ui& ui) {
   if (entry(ui, {"Redo", "Ctrl+Y", can_redo(s)}, "What was undone, without solving again.")) ui.emit(Redo{});
   ImGui::Separator();
   const bool posed = s.pose.has_value(), there = s.curves != nullptr;
-  if (entry(ui, {"Key the pose", "K", posed}, "Pull the motion through the pose that was made, at the time shown."))
+  if (entry(ui, {"Key the pose", "K", posed},
+            "Pull the motion through the pose that was made, at the time shown: a starting guess, which Run may move."))
     ui.emit(KeyPose{});
   if (entry(ui, {"Drop the pose", "Esc", posed}, "Forget the pose that was made.")) ui.emit(SetPose{});
   if (entry(ui, {"Copy the pose", "Ctrl+C", there}, "Remember the figure as it stands.")) ui.emit(CopyPose{});
@@ -144,6 +145,7 @@ void draw_view_menu(Ui& ui) {
   toggle("Trails", "T", m.trails, "The ways of hands, and of the points chosen in the tab Freedom.");
   toggle("Forces", nullptr, m.forces, "Torques and forces of the joints, as arrows.");
   toggle("Marks of constraints", nullptr, m.marks, "Where constraints hold and where they do not.");
+  toggle("Legend", nullptr, m.legend, "A line under the figure that tells lines, marks and ghosts apart.");
   ImGui::Separator();
   if (entry(ui, {"Dark", nullptr, true, s.dark}, "Dark or light.")) ui.emit(SetTheme{!s.dark});
   ImGui::EndMenu();
@@ -223,10 +225,11 @@ void draw_toolbar(Ui& ui) {
     if (button("Go back", "go back", can_undo(s), "Return to the motion before the edit")) ui.emit(Undo{});
   }
   if (s.pose) {
-    if (button("Key", "key pose", true, "Pull the motion through this pose (K)", true)) ui.emit(KeyPose{});
+    if (button("Key", "key pose", true, "Pull the motion through this pose (K): a starting guess, which Run may move",
+               true))
+      ui.emit(KeyPose{});
     if (button("Drop", "drop pose", true, "Forget this pose")) ui.emit(SetPose{});
   }
-  ui.notices(Notice::Place::view);
   ImGui::NewLine();
 }
 

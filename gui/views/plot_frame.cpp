@@ -49,48 +49,4 @@ void draw_scales(ImDrawList& list, const PlotFrame& f, const Colours& colours, b
   list.AddRect(f.corner, {f.corner.x + f.size.x, f.corner.y + f.size.y}, strong);
 }
 
-int Legend::at(const ImVec2& mouse) const {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [corner, size] = places[i];
-    if (mouse.x >= corner.x && mouse.x <= corner.x + size.x && mouse.y >= corner.y && mouse.y <= corner.y + size.y)
-      return static_cast<int>(i);
-  }
-  return -1;
-}
-
-Legend arrange(std::span<const Name> names, const ImVec2& corner, float width, int rows, float gap) {
-  Legend legend;
-  const float line = ImGui::GetFontSize() + 2;
-  const float number = ImGui::CalcTextSize(fmt::format("+{}", names.size()).c_str()).x;
-  float x = 0;
-  int row = 0;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const float wide = ImGui::CalcTextSize(names[i].text.c_str()).x;
-    // In the last row there has to be room for the number of those behind, too.
-    const auto needed = [&] { return row + 1 < rows || i + 1 == names.size() ? wide : wide + gap + number; };
-    if (x > 0 && x + needed() > width && row + 1 < rows) x = 0, ++row;
-    if (x + needed() > width && (x > 0 || rows > 1 || i > 0)) {
-      legend.left_out = names.size() - i;
-      legend.places.push_back({{corner.x + x, corner.y + static_cast<float>(row) * line}, {number, line}});
-      break;
-    }
-    legend.places.push_back({{corner.x + x, corner.y + static_cast<float>(row) * line}, {wide, line}});
-    x += wide + gap;
-  }
-  legend.height = names.empty() ? 0 : static_cast<float>(row + 1) * line;
-  return legend;
-}
-
-void draw(ImDrawList& list, const Legend& legend, std::span<const Name> names, const Colours& colours, bool ground) {
-  for (std::size_t i = 0; i < legend.places.size(); ++i) {
-    const auto& [corner, size] = legend.places[i];
-    const bool number = legend.left_out > 0 && i + 1 == legend.places.size();
-    if (ground)
-      list.AddRectFilled({corner.x - 3, corner.y}, {corner.x + size.x + 3, corner.y + size.y},
-                         packed(colours.panel, 0.8F), 3);
-    list.AddText(corner, packed(number ? colours.faint : names[i].colour),
-                 (number ? fmt::format("+{}", legend.left_out) : names[i].text).c_str());
-  }
-}
-
 }  // namespace spacetime::gui

@@ -48,6 +48,7 @@ void draw_pins(Ui& ui, const TimeAxis& axis, float y) {
 std::string told(const KeyMark& mark) {
   std::string text = fmt::format("{} at {} s", mark.sketched ? "The sketch" : "A key", shown(mark.time));
   for (const auto& [dof, value] : mark.held) text += fmt::format("\n{} = {}", dof, shown(value));
+  text += "\n\nA starting guess: Run may move the motion away from it. Only constraints are kept.";
   if (mark.sketched) return text + "\n\nIt belongs to the scene's text. Click to go to its time.";
   if (mark.added.empty())
     return text +

@@ -8,35 +8,18 @@
 #include <optional>
 #include <string_view>
 
-#include "gui/inverse_kinematics.h"
 #include "gui/places.h"
 #include "gui/render/figures.h"
 #include "gui/render/renderer.h"
 #include "gui/render/target.h"
 #include "gui/scene_picture.h"
-#include "gui/views/constants.h"
+#include "gui/views/grip.h"
+#include "gui/views/scene_words.h"
 
 namespace spacetime::gui {
 namespace {
 
-// What is being dragged with the left button.
-struct Pull {
-  enum class What { nothing, camera, body, place } what = What::nothing;
-  int body = -1;
-  glm::dvec3 point{0};  // body: where it was taken hold of, in its own axes
-  PlaceHandle place;
-  glm::vec3 start{0};  // of the point in the world: the drag stays in the plane through it that faces the camera
-};
-
 glm::vec2 as_vector(const ImVec2& v) { return {v.x, v.y}; }
-
-// Where a ray meets the plane through `point` that faces the camera.
-std::optional<glm::vec3> meet(const Ray& ray, const glm::vec3& point, const Camera& camera) {
-  const glm::vec3 normal = glm::normalize(camera.target - eye(camera));
-  const float along = glm::dot(ray.direction, normal);
-  if (along < 1e-4F) return std::nullopt;
-  return ray.origin + ray.direction * (glm::dot(point - ray.origin, normal) / along);
-}
 
 bool is_software() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -71,16 +54,41 @@ SceneView::~SceneView() = default;
 
 namespace {
 
+// What has no extent, such as a bead that does not move yet, is not looked at from within a hand's breadth.
+Box with_room(Box box) {
+  constexpr float least = 0.25F, instead = 0.5F;  // m: across, and to each side
+  const glm::vec3 size = box.size(), middle = box.centre();
+  if (!box.empty() && std::max({size.x, size.y, size.z}) < least) box.include({middle - instead, middle + instead});
+  return box;
+}
+
 void frame_all(Ui& ui, const Figures& figures, const Motion& motion, const glm::vec2& size) {
-  Box box = figures.bounds(motion);
-  if (ui.state.scene->problem)
-    for (const PlaceHandle& place : places_of(*ui.state.scene->problem))
-      box.include(glm::vec3(at(place, ui.question().constants)));
-  ui.memory.scene.ground = ground_height(figures.bounds(motion));
-  ui.memory.scene.camera = frame(ui.memory.scene.camera, box, size, 0.1F);
-  ui.memory.scene.framed = true;
-  ui.memory.scene.as_framed = ui.memory.scene.camera;
-  ui.memory.scene.framed_at = ui.state.revision;
+  const Box moved = figures.bounds(motion);
+  Box box = moved;
+  for (const PlaceHandle& place : places_of(*ui.state.scene->problem))
+    box.include(glm::vec3(at(place, ui.question().constants)));
+  SceneMemory& m = ui.memory.scene;
+  m.ground = ground_height(moved);
+  m.camera = frame(m.camera, with_room(box), size, 0.1F);
+  m.framed = true;
+  m.grounded = ui.state.revision;
+}
+
+// The camera stays where the person has it, whatever becomes of the motion: only a scene that is opened, and who asks
+// for it, frames the figure anew.
+void look(Ui& ui, const Figures& figures, const glm::vec2& size) {
+  const State& s = ui.state;
+  SceneMemory& m = ui.memory.scene;
+  const Motion motion = motion_of(s, false);
+  if (!s.log.empty() && m.framed_for != s.log.front().number) {
+    m.framed_for = s.log.front().number;
+    m.framed = false;
+    if (!planar(figures.bounds(motion))) m.camera = looking(View::free, m.camera);
+  }
+  if (!m.framed) return frame_all(ui, figures, motion, size);
+  if (s.running || s.steering || m.grounded == s.revision) return;
+  m.grounded = s.revision;
+  m.ground = std::min(m.ground, ground_height(figures.bounds(motion)));  // nothing sinks into it
 }
 
 // Handles of places, drawn over the picture; which one the mouse is at.
@@ -109,104 +117,6 @@ std::optional<PlaceHandle> draw_places(Ui& ui, const ImVec2& corner, const glm::
   return hot;
 }
 
-Moment shown_moment(const Ui& ui) {
-  return moment_of(motion_of(ui.state, true), ui.question().constants, ui.state.playback.time);
-}
-
-// Degrees of freedom of the body's creature that are in the window.
-std::vector<std::string> movable(const Ui& ui, const Body& body) {
-  std::vector<std::string> out;
-  for (const Freedom& dof : ui.question().dofs)
-    if (dof.in_window && creature_of(dof.name) == creature_of(body.name)) out.push_back(dof.name);
-  return out;
-}
-
-void pull_body(Ui& ui, const Pull& pull, const glm::vec3& target) {
-  const Problem& problem = *ui.state.scene->problem;
-  if (static_cast<std::size_t>(pull.body) >= problem.bodies.size()) return;  // another scene has come meanwhile
-  const Body& body = problem.bodies[static_cast<std::size_t>(pull.body)];
-  const std::vector<std::string> free = movable(ui, body);
-  if (free.empty()) return;
-  std::map<std::string, std::pair<double, double>> bounds;
-  for (const Freedom& dof : ui.question().dofs)
-    if (dof.lower || dof.upper) bounds[dof.name] = {dof.lower.value_or(-1e300), dof.upper.value_or(1e300)};
-  const auto values = reach(problem, body, shown_moment(ui), pull.point, glm::dvec3(target), free, bounds);
-  Pose pose = ui.state.pose.value_or(Pose{});
-  for (const std::string& name : free) pose.values[name] = values.at(name);
-  ui.emit(SetPose{pose});
-}
-
-void pull_place(Ui& ui, const Pull& pull, const glm::vec3& target) {
-  std::vector<std::pair<std::string, double>> constants;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::string& name = pull.place.parts[static_cast<std::size_t>(axis)];
-    if (!name.empty()) constants.emplace_back(name, std::round(target[axis] * 1e4) / 1e4);
-  }
-  ui.emit(Steer{setting(constants)});
-}
-
-// The point of a body under the mouse: where the ray comes nearest to its origin's depth is good enough to hold it by.
-void take_hold(Ui& ui, Pull& pull, int body, const Ray& ray) {
-  const Problem& problem = *ui.state.scene->problem;
-  const Moment moment = shown_moment(ui);
-  const BodyPose pose(problem, problem.bodies[static_cast<std::size_t>(body)]);
-  const glm::dvec3 origin = pose.place(moment, glm::dvec3(0));
-  const auto hit = meet(ray, glm::vec3(origin), ui.memory.scene.camera);
-  if (!hit) return;
-  // World to the body's axes: rows of the rotation are what unit vectors become.
-  const glm::dvec3 away = glm::dvec3(*hit) - origin;
-  for (int k = 0; k < 3; ++k) {
-    glm::dvec3 unit(0);
-    unit[k] = 1;
-    pull.point[k] = glm::dot(pose.place(moment, unit) - origin, away);
-  }
-  pull.what = Pull::What::body;
-  pull.body = body;
-  pull.start = *hit;
-}
-
-// The index of the problem's body that a solid shows; -1 for none, and for a bead, which has no body.
-int body_of(const Figures& figures, const Problem& problem, int id) {
-  if (id < 0) return -1;
-  const auto body = std::ranges::find(problem.bodies, figures.name(id), &Body::name);
-  return body == problem.bodies.end() ? -1 : static_cast<int>(body - problem.bodies.begin());
-}
-
-void take_mouse(Ui& ui, Pull& pull, const Picture& picture, const Figures& figures,
-                const std::optional<PlaceHandle>& hot, const ImVec2& corner, const glm::vec2& size) {
-  Camera& camera = ui.memory.scene.camera;
-  const ImGuiIO& io = ImGui::GetIO();
-  const glm::vec2 pixel = as_vector(io.MousePos) - as_vector(corner), moved = as_vector(io.MouseDelta);
-  const Ray ray = ray_through(camera, size, pixel);
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0) camera = zoom(camera, std::pow(1.15F, io.MouseWheel), pixel, size);
-  if (ImGui::IsItemHovered() && (ImGui::IsMouseDragging(1, 1) || ImGui::IsMouseDragging(2, 1)))
-    camera = pan(camera, moved, size);
-  if (ImGui::IsItemActivated()) {
-    pull = Pull{};
-    pull.what = Pull::What::camera;
-    const int body = body_of(figures, *ui.state.scene->problem, pick(picture, ray));
-    if (hot) {
-      pull.what = Pull::What::place;
-      pull.place = *hot;
-      pull.start = glm::vec3(at(*hot, ui.question().constants));
-    } else if (body >= 0) {
-      take_hold(ui, pull, body, ray);
-    }
-  }
-  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2) && !ui.memory.drag_dropped) {
-    if (pull.what == Pull::What::camera && (moved.x != 0 || moved.y != 0))
-      camera = orbit(camera, -moved.x * 0.008F, moved.y * 0.008F);
-    const auto target = meet(ray, pull.start, camera);
-    const bool moving = moved.x != 0 || moved.y != 0;
-    if (target && moving && pull.what == Pull::What::body) pull_body(ui, pull, *target);
-    if (target && moving && pull.what == Pull::What::place) pull_place(ui, pull, *target);
-  }
-  if (ImGui::IsItemDeactivated()) {
-    if (pull.what == Pull::What::place && ui.state.steering) ui.emit(Steered{true});
-    pull = Pull{};
-  }
-}
-
 // Where the figure's parts are seen, by name.
 void note_parts(Ui& ui, const Picture& picture, const Figures& figures, const ImVec2& corner, const glm::vec2& size) {
   for (const Solid& solid : picture.solids) {
@@ -216,22 +126,6 @@ void note_parts(Ui& ui, const Picture& picture, const Figures& figures, const Im
     const auto seen = project(ui.memory.scene.camera, size, glm::vec3(middle));
     if (seen)
       ui.memory.places["part " + figures.name(solid.id)] = {corner.x + seen->x - 1, corner.y + seen->y - 1, 2, 2};
-  }
-}
-
-void draw_words(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const State& s = ui.state;
-  std::string text;
-  if (s.steering)
-    text = s.steering->line;
-  else if (s.pose)
-    text = "A pose at " + shown(s.playback.time) + " s: K keys it, Esc drops it";
-  if (!text.empty()) {
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    const float x = corner.x + (size.x - extent.x) / 2, y = corner.y + ui.scaled(10);
-    list.AddRectFilled({x - 10, y - 4}, {x + extent.x + 10, y + extent.y + 4}, packed(ui.colours().panel, 0.85F), 5);
-    list.AddText({x, y}, packed(ui.colours().text), text.c_str());
   }
 }
 
@@ -261,20 +155,14 @@ void SceneView::draw(Ui& ui) {
   Resources& r = *resources_;
   r.know(s.scene->problem);
   r.fit(static_cast<int>(size.x), static_cast<int>(size.y));
-  SceneMemory& m = ui.memory.scene;
-  if (!s.log.empty() && m.framed_for != s.log.front().scene) {
-    m.framed_for = s.log.front().scene;
-    m.framed = false;
-    if (!planar(r.figures->bounds(motion_of(s, false)))) m.camera = looking(View::free, m.camera);
-  }
-  const bool at_rest = !s.running && !s.steering && m.framed_at != s.revision;
-  if (at_rest && m.camera == m.as_framed) m.framed = false;
-  if (!m.framed) frame_all(ui, *r.figures, motion_of(s, false), size);
+  const SceneMemory& m = ui.memory.scene;
+  look(ui, *r.figures, size);
   Picture picture = picture_of(s, ui.question(), ui.residuals(), *r.figures, {m.trails, m.ghosts, m.forces, m.marks});
   picture.ground_height = m.ground;
   r.target->bind();
   r.renderer.draw(picture, m.camera, r.target->width(), r.target->height(), Quality::fast);
   ImGui::InvisibleButton("scene", {size.x, size.y});
+  ImGui::SetItemAllowOverlap();  // messages stand over it
   ui.here("scene");
   // The texture's first row is the lowest.
   ImGui::GetWindowDrawList()->AddImageRounded(
@@ -283,7 +171,7 @@ void SceneView::draw(Ui& ui) {
   note_parts(ui, picture, *r.figures, corner, size);
   const auto hot = draw_places(ui, corner, size, r.pull);
   take_mouse(ui, r.pull, picture, *r.figures, hot, corner, size);
-  draw_words(ui, corner, size);
+  draw_words(ui, picture, corner, size);
 }
 
 }  // namespace spacetime::gui

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/views/files.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
@@ -32,59 +33,75 @@ void say_what(Ui& ui, const char* verb, const DofNames& names) {
   ImGui::PopTextWrapPos();
 }
 
-void draw_number(Ui& ui, const char* label, const char* name, double& value, const char* help) {
-  ImGui::SetNextItemWidth(ui.scaled(90));
-  ImGui::InputDouble(label, &value, 0, 0, "%.4g");
-  ui.control(name, help);
-}
+// What is asked of the person before the selected degrees of freedom are changed.
+struct Tool {
+  const char* name;   // of its popup, and of the button in it
+  const char* label;  // of that button
+  const char* what;   // it does
+  const char* open;   // help of the button that opens it
+  const char* done;   // ... of the one that does it
+  const char *number, *number_name, *number_help;
+};
+constexpr Tool smooth{"filter",
+                      "Filter",
+                      "Smooths",
+                      "Smooths the degrees of freedom that are selected, here or in the Freedom table.",
+                      "Smooths them, as a line of the log.",
+                      "Strength, s",
+                      "filter strength",
+                      "Wiggles of this period are halved, faster ones damped more and slower ones less."};
+constexpr Tool disturb{"shake",
+                       "Shake",
+                       "Disturbs",
+                       "Disturbs the degrees of freedom that are selected, to leave a local minimum.",
+                       "Disturbs them, as a line of the log.",
+                       "Amplitude",
+                       "shake amplitude",
+                       "A smooth random curve is added that nowhere exceeds this, in each one's own units."};
 
-void draw_filter(Ui& ui, const DofNames& names) {
-  if (!ImGui::BeginPopup("filter")) return;
-  SelectionToolsMemory& m = ui.memory.selection_tools;
-  say_what(ui, "Smooths", names);
-  draw_number(ui, "Strength, s", "filter strength", m.strength,
-              "Wiggles of this period are halved, faster ones damped more and slower ones less.");
-  const bool possible = std::isfinite(m.strength) && m.strength > 0 && !names.empty();
-  if (ImGui::Button("Filter") && possible) {
-    ui.act(filter_words(m.strength, named(ui, names)).line, Notice::Place::timeline);
-    ImGui::CloseCurrentPopup();
-  }
-  ui.control("filter", "Smooths them, as a line of the log.");
-  ImGui::EndPopup();
-}
-
-void draw_shake(Ui& ui, const DofNames& names) {
-  if (!ImGui::BeginPopup("shake")) return;
-  SelectionToolsMemory& m = ui.memory.selection_tools;
-  say_what(ui, "Disturbs", names);
-  draw_number(ui, "Amplitude", "shake amplitude", m.amplitude,
-              "A smooth random curve is added that nowhere exceeds this, in each one's own units.");
+// A button and its popup, which stands beside the tools so that it covers none of them; `more` draws what else is
+// asked.  Whether it is to be done.
+template <class More>
+bool draw_tool(Ui& ui, const Tool& tool, const DofNames& names, double& number, const More& more) {
+  if (names.empty()) ImGui::BeginDisabled();
+  if (ImGui::SmallButton((std::string(tool.label) + "...").c_str())) ImGui::OpenPopup(tool.name);
+  ui.control(std::string("open ") + tool.name, tool.open);
+  if (names.empty()) ImGui::EndDisabled();
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImGui::SetNextWindowPos({corner.x + size.x + ui.scaled(6), corner.y + size.y}, ImGuiCond_Always, {0, 1});
+  if (!ImGui::BeginPopup(tool.name)) return false;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(8), ui.scaled(4)});  // the tools' own are tighter
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.scaled(8), ui.scaled(6)});
+  say_what(ui, tool.what, names);
   ImGui::SetNextItemWidth(ui.scaled(90));
-  ImGui::InputInt("Seed", &m.seed, 0);
-  ui.control("shake seed", "The same seed is the same disturbance. Each Shake counts it up.");
-  m.seed = std::clamp(m.seed, 1, 1'000'000);
-  const bool possible = std::isfinite(m.amplitude) && m.amplitude > 0 && !names.empty();
-  if (ImGui::Button("Shake") && possible) {
-    ui.act(shake_words(m.amplitude, m.seed++, named(ui, names)).line, Notice::Place::timeline);
-    ImGui::CloseCurrentPopup();
-  }
-  ui.control("shake", "Disturbs them, as a line of the log.");
+  ImGui::InputDouble(tool.number, &number, 0, 0, "%.4g");
+  ui.control(tool.number_name, tool.number_help);
+  more();
+  const bool possible = std::isfinite(number) && number > 0 && !names.empty();
+  const bool done = ImGui::Button(tool.label) && possible;
+  ui.control(tool.name, tool.done);
+  if (done || escaped()) ImGui::CloseCurrentPopup();
+  ImGui::PopStyleVar(2);
   ImGui::EndPopup();
+  return done;
 }
 
 }  // namespace
 
 void draw_selection_tools(Ui& ui) {
   const DofNames names = selected(ui);
-  if (names.empty()) ImGui::BeginDisabled();
-  if (ImGui::SmallButton("Filter...")) ImGui::OpenPopup("filter");
-  ui.control("open filter", "Smooths the degrees of freedom that are selected, here or in the Freedom table.");
+  SelectionToolsMemory& m = ui.memory.selection_tools;
+  if (draw_tool(ui, smooth, names, m.strength, [] {}))
+    ui.act(filter_words(m.strength, named(ui, names)).line, Notice::Place::timeline);
   ImGui::SameLine();
-  if (ImGui::SmallButton("Shake...")) ImGui::OpenPopup("shake");
-  ui.control("open shake", "Disturbs the degrees of freedom that are selected, to leave a local minimum.");
-  if (names.empty()) ImGui::EndDisabled();
-  draw_filter(ui, names);
-  draw_shake(ui, names);
+  const auto ask_seed = [&] {
+    ImGui::SetNextItemWidth(ui.scaled(90));
+    ImGui::InputInt("Seed", &m.seed, 0);
+    ui.control("shake seed", "The same seed is the same disturbance. Each Shake counts it up.");
+    m.seed = std::clamp(m.seed, 1, 1'000'000);
+  };
+  if (draw_tool(ui, disturb, names, m.amplitude, ask_seed))
+    ui.act(shake_words(m.amplitude, m.seed++, named(ui, names)).line, Notice::Place::timeline);
 }
 
 void select_dof(Ui& ui, const std::string& name) {

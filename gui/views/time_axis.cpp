@@ -30,6 +30,11 @@ bool TimeAxis::shows(double t) const {
 TimeAxis time_axis(Ui& ui, double start, double end, float left, float right) {
   SpanMemory& m = ui.memory.span;
   if (m.start != start || m.end != end) m = {start, end, start, end};
+  const Playback& p = ui.state.playback;
+  const bool away = p.time < m.from || p.time > m.to;
+  if (p.playing && away && !ImGui::IsMouseDown(1)) show(m, p.time, p.time + (m.to - m.from));
+  // Samples are made fine there.
+  if (ui.state.span != std::pair{m.from, m.to}) ui.emit(ShowSpan{m.from, m.to});
   return {m.from, m.to, left, right};
 }
 
@@ -50,6 +55,13 @@ void move_time(Ui& ui, const TimeAxis& axis, float top, float scale_bottom, floa
     const double by = axis.seconds(io.MouseDelta.x);
     show(m, axis.from - by, axis.to - by);
   }
+}
+
+void draw_cursor(Ui& ui, const TimeAxis& axis, float top, float bottom) {
+  const double time = ui.state.playback.time;
+  if (!axis.shows(time)) return;
+  const float x = axis.x(time);
+  ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, packed(ui.colours().bad, 0.9F), 1.5F);
 }
 
 void fit_time(Ui& ui) {

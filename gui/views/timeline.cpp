@@ -201,7 +201,9 @@ void draw_timeline(Ui& ui) {
   const float width = ImGui::GetContentRegionAvail().x;
   draw_transport(ui, start, end);
   if (!there) {
-    ImGui::TextDisabled(s.scene ? "There is no motion: the scene has mistakes." : "No scene is open.");
+    ImGui::TextDisabled(s.work.opening ? "The scene is being compiled."
+                        : s.scene      ? "There is no motion: the scene has mistakes. Mend them in the tab Scene."
+                                       : "No scene is open.");
     return;
   }
   const TimeAxis axis = time_axis(ui, start, end, at.x + ui.scaled(166), at.x + width - ui.scaled(18));
@@ -219,13 +221,10 @@ void draw_timeline(Ui& ui) {
   draw_scopes(ui, axis, *s.scene->problem);
   ImGui::EndChild();
   ImGui::PopStyleVar();
+  draw_cursor(ui, axis, below - ui.scaled(10), ImGui::GetCursorScreenPos().y);
   draw_curves(ui, axis);
   const float bottom = at.y + ImGui::GetWindowHeight();
   move_time(ui, axis, top, rows_top, bottom);
-  // The cursor goes through everything.
-  if (!axis.shows(s.playback.time)) return;
-  const float x = axis.x(s.playback.time);
-  ImGui::GetWindowDrawList()->AddLine({x, below - ui.scaled(10)}, {x, bottom}, packed(ui.colours().bad, 0.9F), 1.5F);
 }
 
 }  // namespace spacetime::gui

@@ -63,9 +63,12 @@ void Ui::here(const std::string& name) {
 void Ui::help(const char* text) const {
   // A disabled control needs its help most.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  // One at a time: where marks stand on something, theirs.
+  if (memory.helping) return;
   // Not at once: what it covers may be where the mouse is going.
   const ImGuiContext& context = *ImGui::GetCurrentContext();
   if (context.HoveredId != 0 && context.HoveredIdTimer < help_delay) return;
+  memory.helping = true;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(scaled(340));
   ImGui::TextUnformatted(text);

@@ -33,17 +33,19 @@ struct CurvesMemory {
   int dragged_index = -1;
   double dragged_value = 0;
   std::string reading;  // what is told of the curve that the mouse is near
+  std::string lacking;  // what is told of curves that are asked for and not there
   bool held = false;    // what is shown stays while a control point is dragged, though it was fitted
 };
 
 struct SceneMemory {
-  Camera camera{.pitch = 0.12F};            // a little from above, so that the ground is seen
-  Camera as_framed;                         // while the person has not moved it, it follows what the motion needs
-  long framed_at = -1;                      // State::revision
-  float ground = 0;                         // m, under the lowest that the figure comes
-  bool framed = false;                      // the camera has been put in front of the scene
-  std::shared_ptr<const Scene> framed_for;  // as it was opened
-  bool trails = true, ghosts = true, forces = false, marks = true;
+  Camera camera{.pitch = 0.12F};  // a little from above, so that the ground is seen
+  bool framed = false;            // the camera has been put in front of the scene
+  int framed_for = 0;             // number of the log's first entry
+  float ground = 0;               // m, under the lowest that the figure has come since
+  long grounded = -1;             // State::revision
+  bool trails = true, ghosts = true, forces = false, marks = true, legend = true;
+  std::string pointed;  // what is told of the part under the pointer
+  std::string doing;    // ... of what is being done
 };
 
 struct BarMemory {
@@ -94,6 +96,7 @@ struct Memory {
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
   std::shared_ptr<const Scene> mistaken;  // whose text has been brought forward
+  bool helping = false;                   // a help is shown in this frame
   std::set<std::string> helped;           // names of this frame's controls that have help
   std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
   SceneMemory scene;

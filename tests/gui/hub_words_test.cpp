@@ -92,5 +92,12 @@ TEST(Words, OnlyWhatIteratesIsWrittenFromTheLog) {
   EXPECT_THROW(iterating_line(R"({"action":"dance"})"), InputError);
 }
 
+TEST(Words, AreShortenedToBeLookedAt) {
+  EXPECT_EQ(brief("key 0.5: arm.elbow = -0.54681234567, x2 = 1e-17; set k12 = 123456"),
+            "key 0.5: arm.elbow = -0.5468, x2 = 1e-17; set k12 = 123456");
+  EXPECT_EQ(brief("control a.b 12 = 3.0000000000000004"), "control a.b 12 = 3");
+  EXPECT_EQ(brief(""), "");
+}
+
 }  // namespace
 }  // namespace spacetime::gui

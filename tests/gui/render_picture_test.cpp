@@ -200,5 +200,18 @@ TEST(Pick, FindsTheNearestSolidUnderThePixel) {
   EXPECT_EQ(pick(picture, {{0.5F, 0, -5}, {0, 0, -1}}), -1);
 }
 
+TEST(Picture, PointsAreSoFarFromASolidsSurface) {
+  Solid ball{.radius = 0.5F};
+  ball.pose[3] = {1, 2, 3, 1};
+  EXPECT_FLOAT_EQ(distance(ball, {3, 2, 3}), 1.5F);
+  EXPECT_FLOAT_EQ(distance(ball, {1, 2, 3}), -0.5F);
+  const Solid limb{.shape = Solid::Shape::capsule, .radius = 0.1F, .extent = {2, 0, 0}};
+  EXPECT_FLOAT_EQ(distance(limb, {1, 1, 0}), 0.9F);
+  EXPECT_FLOAT_EQ(distance(limb, {5, 4, 0}), 4.9F);
+  const Solid box{.shape = Solid::Shape::box, .extent = {2, 4, 6}};
+  EXPECT_FLOAT_EQ(distance(box, {4, 6, 0}), 5);
+  EXPECT_FLOAT_EQ(distance(box, {0.5F, 0, 0}), -0.5F);
+}
+
 }  // namespace
 }  // namespace spacetime::gui

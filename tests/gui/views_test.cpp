@@ -5,13 +5,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <map>
 #include <regex>
+#include <set>
+#include <tuple>
 
 #include "common/files.h"
 #include "common/sample.h"
+#include "gui/holds.h"
+#include "gui/scene_picture.h"
 #include "gui/screen.h"
+#include "gui/views/curve_values.h"
 #include "optimizer/run.h"
 #include "symbolic/compile.h"
 
@@ -90,6 +98,106 @@ TEST(ViewsSource, EveryControlIsNamedAndHelpedWith) {
       EXPECT_TRUE(helped) << file.path() << ": " << behind.substr(0, 60);
     }
   }
+}
+
+// What is held is known where a constraint ties it and the picture shows it touching: not in flight, and not while the
+// sketch has it elsewhere.
+TEST(Holds, ABallIsInTheHandAsLongAsItIsTiedToIt) {
+  State state = solved("throw");
+  const Figures figures(*state.scene->problem);
+  const auto holds = [&](double time) {
+    state.playback.time = time;
+    const Question question = question_of(state);
+    const Picture picture = picture_of(state, question, {}, figures, {false, false, false, false});
+    return holds_at(question, *state.scene->problem, *state.curves, figures, picture, time);
+  };
+  const std::vector<Hold> hand{{"arm.palm", "ball.slideY"}};
+  EXPECT_EQ(holds(0), hand);
+  EXPECT_EQ(holds(0.537), hand);
+  EXPECT_EQ(holds(1.1), hand);
+  EXPECT_TRUE(holds(1.3).empty());
+  auto apart = std::make_shared<Curves>(*state.curves);
+  for (Trajectory& dof : apart->dofs)
+    if (dof.name == "ball.X") std::ranges::fill(dof.coefficients, 2.0);
+  state.curves = apart;
+  EXPECT_TRUE(holds(0.537).empty());
+}
+
+// The torque of each joint stands at the joint.
+TEST(ScenePicture, ForcesStandAtTheirJoints) {
+  State state = solved("throw");
+  state.playback.time = 0.9;
+  const Figures figures(*state.scene->problem);
+  const Picture picture = picture_of(state, question_of(state), {}, figures, {false, false, true, false});
+  ASSERT_EQ(picture.torques.size(), 3U);
+  const auto between = [&](int a, int b) {
+    return glm::length(picture.torques[static_cast<std::size_t>(a)].centre -
+                       picture.torques[static_cast<std::size_t>(b)].centre);
+  };
+  EXPECT_NEAR(between(0, 1), 0.5, 1e-4);
+  EXPECT_NEAR(between(1, 2), 0.4, 1e-4);
+}
+
+// No two curves look alike, whatever is selected; and where there is nothing to be seen, the plot says why.
+TEST(Curves, AreToldApartAndSayWhatLacks) {
+  State state = solved("throw");
+  Screen screen(1280, 800);
+  std::vector<Event> events;
+  const Ui ui{state, screen.memory(), events};
+  using Show = CurvesMemory::Show;
+  CurvesMemory& m = screen.memory().curves;
+  const auto alike = [&] {
+    screen.frame(state);
+    std::map<std::tuple<float, float, float, int>, std::set<std::string>> looks;
+    for (const Plotted& curve : curves_shown(ui))
+      looks[{curve.colour.x, curve.colour.y, curve.colour.z, curve.style}].insert(curve.name);
+    return std::ranges::count_if(looks, [](const auto& look) { return look.second.size() > 1; });
+  };
+  state.selection.expressions = {"arm.force", "arm.hand", "ball.force"};
+  EXPECT_EQ(alike(), 0);
+  EXPECT_EQ(m.lacking, "");
+  auto costly = std::make_shared<Motion>(*state.motion);
+  for (const auto& [name, components] : {std::pair{"rest", 6}, {"held", 2}, {"flight", 2}, {"goal", 2}}) {
+    std::vector<double> row;
+    for (int c = 0; c < components; ++c) row.push_back(c % 2 ? c : -c);
+    costly->multipliers.push_back({name, 0, {0, 1}, {row, row}});
+  }
+  state.motion = costly;
+  m.show = Show::multipliers;
+  EXPECT_EQ(alike(), 0);
+  EXPECT_EQ(curves_shown(ui).size(), 12U);
+  EXPECT_EQ(m.lacking, "");
+  auto crowded = std::make_shared<Motion>(*state.motion);
+  for (int k = 0; k < 12; ++k) {
+    crowded->multipliers.push_back(crowded->multipliers.front());
+    crowded->multipliers.back().name = "more " + std::to_string(k);
+  }
+  state.motion = crowded;
+  EXPECT_EQ(alike(), 0);
+  ASSERT_EQ(curves_shown(ui).front().name, "rest (largest of 6)");
+  EXPECT_EQ(curves_shown(ui).front().values.front(), 5);
+
+  auto before = std::make_shared<Motion>(*state.motion);
+  before->iterations = 0;
+  state.motion = before;
+  before->multipliers.clear();
+  screen.frame(state);
+  EXPECT_TRUE(m.lacking.starts_with("Solve to see")) << m.lacking;
+  m.show = Show::curves;
+  state.selection = {};
+  screen.frame(state);
+  EXPECT_TRUE(m.lacking.starts_with("Select")) << m.lacking;
+  state.selection.expressions = {"ball.force"};
+  state.samples = nullptr;
+  screen.frame(state);
+  EXPECT_EQ(m.lacking, "ball.force: not known yet. Solve to see it.");
+  state.samples = std::make_shared<Samples>(Samples{{0, 1}, {{"ball.force", {{NAN}, {NAN}}}}, {}});
+  screen.frame(state);
+  EXPECT_NE(m.lacking.find("no number"), std::string::npos) << m.lacking;
+  state.samples = std::make_shared<Samples>(Samples{{1}, {{"ball.force", {{2}}}}, {}});
+  screen.frame(state);
+  EXPECT_EQ(m.lacking, "");
+  EXPECT_EQ(curves_shown(ui).size(), 1U);
 }
 
 class Views : public testing::TestWithParam<std::tuple<Format, bool>> {};
