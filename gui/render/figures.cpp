@@ -53,8 +53,9 @@ Figures::Figures(const Problem& problem) : bodies_(problem.bodies), programs_(pr
   };
   std::erase_if(bodies_, [&](const Body& body) { return takes_functionals(body.program); });
   for (const Plot& plot : problem.plots) {
-    if ((plot.outputs.size() == 2 || plot.outputs.size() == 3) && !takes_functionals(plot.program))
-      plots_.push_back(plot);
+    const bool spatial = plot.outputs.size() == 2 || plot.outputs.size() == 3;
+    const bool force = plot.name.ends_with(".force");  // one number a degree of freedom: no place
+    if (spatial && !force && !takes_functionals(plot.program)) plots_.push_back(plot);
   }
   add_bodies();
   std::vector<std::string> dofs;

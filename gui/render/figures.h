@@ -39,7 +39,7 @@ class Figures {
                             float faintest = 0.15F) const;
 
   // Whose ways can be drawn: parts, creatures (of which the last part counts), and named expressions of two or three
-  // components.
+  // components, but for creatures' forces.
   std::vector<std::string> points() const;
   // The way of one of them; throws InputError for a name that is none.
   std::vector<glm::vec3> way(const Motion& motion, const std::string& point, std::span<const double> times) const;

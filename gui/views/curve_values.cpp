@@ -111,10 +111,10 @@ double largest(const Multipliers& multipliers) {
   return most;
 }
 
-// Those that have something to say.
+// Those that have something to say: before anything was solved they are guesses.
 std::vector<const Multipliers*> multipliers_shown(const Ui& ui) {
   std::vector<const Multipliers*> out;
-  if (!ui.state.motion) return out;
+  if (!ui.state.motion || ui.state.motion->iterations == 0) return out;
   const std::string& selected = ui.state.selection.constraint;
   double most = 0;
   for (const Multipliers& multipliers : ui.state.motion->multipliers) most = std::max(most, largest(multipliers));

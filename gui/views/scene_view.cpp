@@ -69,7 +69,11 @@ void frame_all(Ui& ui, const Figures& figures, const Motion& motion, const glm::
     box.include(glm::vec3(at(place, ui.question().constants)));
   SceneMemory& m = ui.memory.scene;
   m.ground = ground_height(moved);
-  m.camera = frame(m.camera, with_room(box), size, 0.1F);
+  // Above the legend: framed as in a picture without its rows, from as far away as leaves them below.
+  const float rows = m.legend ? std::min(ui.scaled(50), size.y / 4) : 0;
+  m.camera = frame(m.camera, with_room(box), {size.x, size.y - rows}, 0.08F);
+  m.camera.distance *= size.y / (size.y - rows);
+  m.camera = pan(m.camera, {0, -rows / 2}, size);
   m.framed = true;
   m.grounded = ui.state.revision;
 }

@@ -24,8 +24,17 @@ std::string fitted(std::string text, float width) {
   return cut ? text.substr(0, text.size() - 4) + "..." : text;
 }
 
-// What is being done, in the middle; its lower end.
-float draw_doing(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
+// Whether any part of the figure is, or would be if others did not hide it.
+bool is_in_view(const Ui& ui, const Picture& picture, const glm::vec2& size) {
+  return std::ranges::any_of(picture.solids, [&](const Solid& solid) {
+    if (solid.layer != 0) return false;
+    const auto seen = project(ui.memory.scene.camera, size, bounds(solid).centre());
+    return seen && seen->x >= 0 && seen->y >= 0 && seen->x <= size.x && seen->y <= size.y;
+  });
+}
+
+// What is being done, or has to be, in the middle; its lower end.
+float draw_doing(Ui& ui, const Picture& picture, const ImVec2& corner, const glm::vec2& size) {
   const State& s = ui.state;
   const float top = corner.y + ui.scaled(10), margin = ui.scaled(24);
   std::string text;
@@ -33,6 +42,8 @@ float draw_doing(Ui& ui, const ImVec2& corner, const glm::vec2& size) {
     text = brief(s.steering->line);
   else if (s.pose)
     text = "A pose at " + shown(s.playback.time) + " s: K keys it, Esc drops it";
+  else if (!picture.solids.empty() && !is_in_view(ui, picture, size))
+    text = "The figure is out of sight: F frames its motion";
   ui.memory.scene.doing = text;
   if (text.empty()) return top;
   const float width = size.x - 2 * margin;
@@ -111,7 +122,7 @@ void draw_legend(Ui& ui, const Picture& picture, const ImVec2& corner, const glm
 
 void draw_words(Ui& ui, const Picture& picture, const ImVec2& corner, const glm::vec2& size) {
   if (ui.memory.scene.legend) draw_legend(ui, picture, corner, size);
-  const float below = draw_doing(ui, corner, size);
+  const float below = draw_doing(ui, picture, corner, size);
   draw_notices(ui, below, corner, size);
 }
 

@@ -138,6 +138,14 @@ TEST(ScenePicture, ForcesStandAtTheirJoints) {
   EXPECT_NEAR(between(1, 2), 0.4, 1e-4);
 }
 
+// A creature's force is no place, though it has three components.
+TEST(ScenePicture, OnlyPlacesHaveWays) {
+  const Figures figures(*solved("throw").scene->problem);
+  const auto points = figures.points();
+  EXPECT_EQ(std::ranges::count(points, "arm.hand"), 1);
+  EXPECT_EQ(std::ranges::count(points, "arm.force"), 0);
+}
+
 // No two curves look alike, whatever is selected; and where there is nothing to be seen, the plot says why.
 TEST(Curves, AreToldApartAndSayWhatLacks) {
   State state = solved("throw");
@@ -180,8 +188,8 @@ TEST(Curves, AreToldApartAndSayWhatLacks) {
   auto before = std::make_shared<Motion>(*state.motion);
   before->iterations = 0;
   state.motion = before;
-  before->multipliers.clear();
   screen.frame(state);
+  EXPECT_TRUE(curves_shown(ui).empty());
   EXPECT_TRUE(m.lacking.starts_with("Solve to see")) << m.lacking;
   m.show = Show::curves;
   state.selection = {};

@@ -112,6 +112,24 @@ TEST(Window, TheCameraStaysWhateverBecomesOfTheMotion) {
   EXPECT_NE(d.screen().memory().scene.camera, framed);
 }
 
+TEST(Window, AFigureThatLeavesTheViewIsToldOf) {
+  Driver d(daemons());
+  open(d,
+       "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain here: x = 0 at 0\nconstrain away: x = 20 at "
+       "1\nminimize calm: integral(x''^2)\n");
+  d.click("run");
+  d.settle();
+  d.frame(2);
+  EXPECT_EQ(d.screen().memory().scene.doing, "");
+  go_to(d, 1);
+  EXPECT_NE(d.screen().memory().scene.doing.find("F frames"), std::string::npos);
+  d.save_picture("sights-11-away.png");
+  d.key(GLFW_KEY_F);
+  d.frame(2);
+  EXPECT_EQ(d.screen().memory().scene.doing, "");
+  EXPECT_LT(d.place("part x").y + d.place("part x").height, d.place("scene legend").y);
+}
+
 TEST(Window, WhatIsDraggedIsToldShortlyAndInside) {
   Driver d(daemons());
   open_throw(d, false);
