@@ -100,7 +100,7 @@ class Server {
  private:
   std::unique_ptr<Stream> own_stream() {
     try {
-      return standard_stream(context_);
+      return standard_stream(context_, [this] { context_.stop(); });
     } catch (const std::system_error& error) {
       throw InputError(std::string("the session cannot begin: ") + error.what());
     }
@@ -119,6 +119,7 @@ class Server {
     }
     events.gone = [this, number, room] {
       log_->debug("session {} has ended", number);
+      if (options_.listen.empty()) return;  // its last answers may still be on their way to standard output
       peers_.erase(number);
       sessions_ -= room ? 1 : 0;
       if (!listener_ && peers_.empty()) context_.stop();

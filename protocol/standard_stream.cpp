@@ -34,47 +34,55 @@ void copy_all(int from, int to, bool to_socket) {
   }
 }
 
+// Two sockets that are connected with each other.
+std::array<int, 2> connected() {
+  std::array<int, 2> pair{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
+  return pair;
+}
+
 class StandardStream final : public Stream {
  public:
-  explicit StandardStream(boost::asio::io_context& context) {
-    std::array<int, 2> pair{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair.data()) != 0) throw InputError("no sockets are left");
-    const int inner = pair[1];
-    socket_ = socket_stream(context, pair[0]);
+  StandardStream(boost::asio::io_context& context, std::function<void()> ended) {
+    const auto [outer, inner] = connected();
+    const auto [watching, watched] = connected();
+    socket_ = socket_stream(context, outer);
+    output_ends_ = socket_stream(context, watching);
+    output_ends_->read_some(nothing_, [ended = std::move(ended)](boost::system::error_code, std::size_t) { ended(); });
     // The first ends with standard input, which may be never: nobody waits for it, and it uses nothing of this object.
     std::thread([inner = ::fcntl(inner, F_DUPFD_CLOEXEC, 0)] {
       copy_all(STDIN_FILENO, inner, true);
       ::shutdown(inner, SHUT_WR);
       ::close(inner);
     }).detach();
-    output_ = std::thread([inner] {
+    // Nor does the second where this is closed: whoever does not read standard output would hold us up for ever.
+    std::thread([inner = inner, watched = watched] {
       copy_all(inner, STDOUT_FILENO, false);
       ::shutdown(inner, SHUT_RDWR);  // standard output takes no more: whoever writes is to know
       ::close(inner);
-    });
+      ::close(watched);
+    }).detach();
   }
-  ~StandardStream() override {
-    socket_->close();
-    cut_ ? output_.detach() : output_.join();  // whoever does not read standard output would hold us up for ever
-  }
+  ~StandardStream() override { socket_->close(); }
   void read_some(std::span<char> into, Done done) override { socket_->read_some(into, std::move(done)); }
   void write_all(std::string_view bytes, Done done) override { socket_->write_all(bytes, std::move(done)); }
   void close() override {
-    cut_ = true;
     socket_->close();
+    output_ends_->close();
   }
   void part() override { socket_->close(); }
 
  private:
   std::unique_ptr<Stream> socket_;
-  bool cut_ = false;
-  std::thread output_;
+  std::unique_ptr<Stream>
+      output_ends_;  // what it reads is its end, as soon as the thread for standard output has ended
+  std::array<char, 1> nothing_{};
 };
 
 }  // namespace
 
-std::unique_ptr<Stream> standard_stream(boost::asio::io_context& context) {
-  return std::make_unique<StandardStream>(context);
+std::unique_ptr<Stream> standard_stream(boost::asio::io_context& context, std::function<void()> ended) {
+  return std::make_unique<StandardStream>(context, std::move(ended));
 }
 
 }  // namespace spacetime::protocol

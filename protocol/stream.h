@@ -27,8 +27,9 @@ class Stream {
 };
 
 // Standard input and output, through two threads: they may be terminals, pipes or files, which block, and are shared
-// with other processes, so that they cannot be made not to.
-std::unique_ptr<Stream> standard_stream(boost::asio::io_context& context);
+// with other processes, so that they cannot be made not to.  `ended` is called when standard output has taken what was
+// written before part(), however long nobody reads it; when it takes no more; or after close().
+std::unique_ptr<Stream> standard_stream(boost::asio::io_context& context, std::function<void()> ended);
 
 // A connected socket of the UNIX family, which it takes over.
 std::unique_ptr<Stream> socket_stream(boost::asio::io_context& context, int descriptor);

@@ -1,4 +1,5 @@
 """How daemons come and go: sockets and their modes, ends of input, signals, dying parents."""
+import fcntl
 import os
 import resource
 import select
@@ -8,6 +9,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import termios
 import time
 import unittest
 
@@ -159,6 +161,39 @@ class Ends(unittest.TestCase):
             while select.select([], [daemon.process.stdin], [], 0.5)[1]:  # until the daemon reads no more
                 daemon.process.stdin.write(requests)
             daemon.process.send_signal(signal.SIGTERM)
+            self.assertEqual(daemon.process.wait(peer.PATIENCE), 0)
+
+    def test_a_signal_ends_a_daemon_whose_last_answers_nobody_reads(self):
+        request = b'{"jsonrpc": "2.0", "id": 1, "method": "rpc.discover"}\n'
+        answer = len(subprocess.run([peer.path_of("symbolic"), "serve"], input=request, stdout=subprocess.PIPE,
+                                    check=True).stdout)
+        for closes in (False, True):
+            with peer.Daemon("symbolic") as daemon:
+                # More than a pipe takes, and not so much that the daemon would have to wait until it has passed it on.
+                daemon.process.stdin.write(request * (100_000 // answer + 1))
+                if closes:
+                    daemon.process.stdin.close()
+                end = time.monotonic() + peer.PATIENCE
+                while self.bytes_in(daemon.process.stdout) < 32768 and time.monotonic() < end:
+                    time.sleep(0.002)
+                while closes and self.threads_of(daemon) > 2 and time.monotonic() < end:
+                    time.sleep(0.002)
+                daemon.process.send_signal(signal.SIGTERM)
+                self.assertEqual(daemon.process.wait(peer.PATIENCE), 0)
+
+    def bytes_in(self, pipe):
+        return int.from_bytes(fcntl.ioctl(pipe, termios.FIONREAD, bytes(4)), sys.byteorder)
+
+    def threads_of(self, daemon):
+        spare = 1 if peer.sanitizer() == "thread" else 0  # its own
+        return len(os.listdir(f"/proc/{daemon.process.pid}/task")) - spare
+
+    def test_answers_wait_for_whoever_reads_late(self):
+        request = b'{"jsonrpc": "2.0", "id": 1, "method": "rpc.discover"}\n'
+        with peer.Daemon("symbolic") as daemon:
+            daemon.process.stdin.write(request * 40)
+            daemon.process.stdin.close()
+            self.assertEqual(len(daemon.process.stdout.read().splitlines()), 40)
             self.assertEqual(daemon.process.wait(peer.PATIENCE), 0)
 
     def test_a_peer_that_vanishes_ends_its_run_alone(self):
