@@ -31,7 +31,8 @@ struct Fault {
 // the rest is for who evaluates them, as is what only a run tells: how many coefficients there are after a refinement.
 std::optional<Fault> validate(const Problem& problem);
 
-// Nothing where the action can be performed on the problem, all of whose statements count; paths are the action's own.
+// Nothing where the action can be performed on the problem, which is one that can be used, and all of whose statements
+// count; paths are the action's own.
 std::optional<Fault> validate(const Action& action, const Problem& problem);
 
 // Nothing where the numbers of a motion's checkpoint are what they can be, whatever the problem.

@@ -5,38 +5,54 @@
 #include "protocol/check.h"
 #include "protocol/checkpoint_json.h"
 #include "protocol/declared.h"
+#include "protocol/limits.h"
 #include "protocol/path.h"
 #include "protocol/problem_json.h"
 
 namespace spacetime {
 namespace {
 
-constexpr int most_count = 1'000'000'000;  // seeds are integers
 constexpr int most_switches = 127;
 
 // Throws what it finds.  Of a motion that failed numbers may be missing.
-struct Check {
-  bool failed;
+class Check {
+ public:
+  explicit Check(bool failed) : failed_(failed) {}
 
   void number(double value, const std::string& path, bool may_lack = false) const {
-    if (!std::isfinite(value) && !(failed && may_lack)) fail(path, "must be finite");
+    if (const char* wrong = wrong_with(value, may_lack)) fail(path, wrong);
   }
   void not_negative(double value, const std::string& path, bool may_lack = false) const {
     number(value, path, may_lack);
-    if (value < 0) fail(path, "must not be negative");
+    if (value < 0) fail(path, negative);
   }
+  // Of long lists: a place is only told where something is wrong there.
   void numbers(const std::vector<double>& values, const std::string& path, bool may_lack = false) const {
-    for (std::size_t i = 0; i < values.size(); ++i) number(values[i], below(path, i), may_lack);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (const char* wrong = wrong_with(values[i], may_lack)) fail(below(path, i), wrong);
+    }
   }
   void none_negative(const std::vector<double>& values, const std::string& path, bool may_lack = false) const {
-    for (std::size_t i = 0; i < values.size(); ++i) not_negative(values[i], below(path, i), may_lack);
+    numbers(values, path, may_lack);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < 0) fail(below(path, i), negative);
+    }
   }
   static void count(int value, int most, const std::string& path) {
     if (value < 0 || value > most) fail(path, "must be from 0 to " + std::to_string(most));
   }
   static void counts(const std::vector<int>& values, int most, const std::string& path) {
-    for (std::size_t i = 0; i < values.size(); ++i) count(values[i], most, below(path, i));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] < 0 || values[i] > most) count(values[i], most, below(path, i));
+    }
   }
+
+ private:
+  static constexpr const char* negative = "must not be negative";
+  const char* wrong_with(double value, bool may_lack) const {
+    return std::isfinite(value) || (failed_ && may_lack) ? nullptr : "must be finite";
+  }
+  const bool failed_;
 };
 
 void check(const Checkpoint::Newton& newton, const Check& all, const std::string& path) {
@@ -48,8 +64,10 @@ void check(const Checkpoint::Newton& newton, const Check& all, const std::string
   all.counts(newton.active, 1, path + "/active");
   all.counts(newton.switches, most_switches, path + "/switches");
   for (std::size_t i = 0; i < newton.filter.size(); ++i) {
-    all.number(newton.filter[i].violation, below(path + "/filter", i) + "/0");
-    all.number(newton.filter[i].objective, below(path + "/filter", i) + "/1");
+    const auto& [violation, objective] = newton.filter[i];
+    if (std::isfinite(violation) && std::isfinite(objective)) continue;
+    all.number(violation, below(path + "/filter", i) + "/0");
+    all.number(objective, below(path + "/filter", i) + "/1");
   }
   all.not_negative(newton.filter_limit, path + "/filter_limit", true);
   all.not_negative(newton.most_violation, path + "/most_violation", true);
@@ -58,7 +76,7 @@ void check(const Checkpoint::Newton& newton, const Check& all, const std::string
   all.not_negative(newton.restore_from, path + "/restore_from");
   all.not_negative(newton.damping, path + "/damping");
   all.not_negative(newton.least_sum, path + "/least_sum");
-  all.count(newton.without_progress, most_count, path + "/without_progress");
+  all.count(newton.without_progress, limits::count, path + "/without_progress");
   all.numbers(newton.proposed, path + "/proposed");
   if (newton.restore_from > 0 && newton.damping == 0) {
     fail(path + "/damping", "must be positive while the violation is reduced");
@@ -87,7 +105,7 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
   const std::string path = "/checkpoint";
   const Check all{motion.status == Status::failed};
   if (const auto& progress = checkpoint.progress) {
-    if (progress->action < 0) fail(path + "/progress/action", "must not be negative");
+    all.count(progress->action, limits::count, path + "/progress/action");
     all.count(progress->iterations, motion.iterations, path + "/progress/iterations");
   }
   if (checkpoint.declared < 0) fail(path + "/declared", "must not be negative");
@@ -98,7 +116,7 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
     all.number(limit, own);
     if (!(limit > 0)) fail(own, "must be positive");
   }
-  all.count(checkpoint.shakes, most_count, path + "/shakes");
+  all.count(checkpoint.shakes, limits::count, path + "/shakes");
   if (checkpoint.start) check(*checkpoint.start, all, path + "/start");
   all.numbers(checkpoint.functionals, path + "/functionals");
   if (const auto& outside = checkpoint.outside) {
@@ -108,7 +126,7 @@ void check(const Checkpoint& checkpoint, const Motion& motion) {
   }
   all.number(checkpoint.step, path + "/step");
   all.number(checkpoint.last_shift, path + "/shift");
-  if (checkpoint.pivoted < 0) fail(path + "/pivoted", "must not be negative");
+  all.count(checkpoint.pivoted, limits::count, path + "/pivoted");
   check(checkpoint.newton, all, path + "/newton");
   if (checkpoint.sqp92 && checkpoint.bfgs) fail(path + "/bfgs", "only one method can have led here");
   if (checkpoint.sqp92) {

@@ -2,30 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/nearest.h"
-#include "protocol/limits.h"
 #include "protocol/path.h"
 
 namespace spacetime {
-namespace {
-
-// ProgramFault's paths name fields of Program; in documents entries are lists and the prefixes' lengths an object.
-std::string document_path(std::string path) {
-  if (path == "value_operations") return "operations/values";
-  if (path == "jacobian_operations") return "operations/jacobian";
-  const std::pair<std::string_view, std::string_view> fields[] = {
-      {"/row", "/0"}, {"/input", "/1"}, {"/column", "/1"}, {"/value", "/2"}};
-  if (!path.starts_with("jacobian/") && !path.starts_with("hessian/")) return path;
-  for (const auto& [field, index] : fields) {
-    if (path.ends_with(field)) return path.replace(path.size() - field.size(), field.size(), index);
-  }
-  return path;
-}
-
-}  // namespace
-
 void fail(std::string path, std::string message) { throw Fault{std::move(path), std::move(message)}; }
 
 void check_name(std::string_view name, const std::string& path, Names& names) {
@@ -99,19 +80,7 @@ void Declared::declarations() {
 }
 
 void Declared::programs() {
-  std::size_t operations = 0;
-  for (const auto& [key, program] : problem_.programs) {
-    const auto path = below("/programs", key);
-    operations += program.op.size();
-    if (operations > limits::operations) {
-      fail("/programs", "more than " + std::to_string(limits::operations) + " operations, the limit of one problem");
-    }
-    if (auto fault = validate(program)) fail(path + '/' + document_path(fault->path), fault->message);
-    needs_.emplace(key, needs_of(program, path));
-    if (const auto own = hash(program); own != key) {
-      fail(path, "is not the program's hash, which is " + own + ": " + std::string(probably_rounded));
-    }
-  }
+  for (const auto& [key, program] : problem_.programs) needs_.emplace(key, needs_of(program, below("/programs", key)));
 }
 
 Needs Declared::needs_of(const Program& program, const std::string& path) const {

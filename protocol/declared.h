@@ -51,7 +51,7 @@ class Declared {
  public:
   using Places = std::unordered_map<std::string_view, std::size_t>;  // by name, in the problem's lists
 
-  // Checks names, places, bases and programs.  Refers to the problem.
+  // Checks names, places, bases and what programs refer to; they themselves have been checked.  Refers to the problem.
   explicit Declared(const Problem& problem);
 
   const Problem& problem() const { return problem_; }

@@ -40,6 +40,9 @@ inline constexpr double evaluated_operations = 1e11;
 // How often one `refine` may halve a knot span; after so many halves a double has no middle left.
 inline constexpr int halvings = 52;
 
+// What a document says was counted: iterations, shakes.  All of them go on being counted, in an int; nobody has so many.
+inline constexpr int count = 1'000'000'000;
+
 // Starts of one `solve`: each keeps a motion and what is known at its end until all have ended.
 inline constexpr int starts = 10'000;
 

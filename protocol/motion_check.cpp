@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "protocol/check.h"
+#include "protocol/limits.h"
 #include "protocol/path.h"
 
 namespace spacetime {
@@ -25,9 +26,10 @@ std::optional<Fault> measured(double measure, bool failed, std::string path) {
   return Fault{std::move(path), "must be a finite number: only a motion whose status is \"failed\" may lack it"};
 }
 
+// Of long lists: a place is only told where something is wrong there.
 std::optional<Fault> all_finite(const std::vector<double>& numbers, std::string_view path) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (auto fault = finite(numbers[i], below(path, i))) return fault;
+    if (!std::isfinite(numbers[i])) return finite(numbers[i], below(path, i));
   }
   return std::nullopt;
 }
@@ -50,12 +52,11 @@ std::optional<Fault> validate_table(const Rows& rows, std::size_t times, std::si
     return Fault{std::string(path), std::to_string(rows.size()) + " rows, but " + std::to_string(times) + " times"};
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto own = below(path, i);
     if (rows[i].size() != columns) {
-      return Fault{own, std::to_string(rows[i].size()) + " columns, expected " + std::to_string(columns)};
+      return Fault{below(path, i), std::to_string(rows[i].size()) + " columns, expected " + std::to_string(columns)};
     }
-    for (std::size_t k = 0; k < columns; ++k) {
-      if (auto fault = measured(rows[i][k], failed, below(own, k))) return fault;
+    for (std::size_t k = 0; k < columns && !failed; ++k) {
+      if (!std::isfinite(rows[i][k])) return measured(rows[i][k], failed, below(below(path, i), k));
     }
   }
   return std::nullopt;
@@ -135,11 +136,11 @@ std::optional<Fault> validate_multipliers(const Motion& motion) {
       return Fault{path + "/values", "needs one row an instance"};
     }
     for (std::size_t row = 0; row < values.size(); ++row) {
-      const auto own = below(path + "/values", row);
+      const auto own = [&] { return below(path + "/values", row); };
       if (values[row].empty() || values[row].size() != values.front().size()) {
-        return Fault{own, "needs one number a component"};
+        return Fault{own(), "needs one number a component"};
       }
-      if (auto fault = all_finite(values[row], own)) return fault;
+      if (auto fault = all_finite(values[row], {})) return Fault{own() + fault->path, fault->message};
     }
   }
   return std::nullopt;
@@ -185,7 +186,9 @@ std::optional<Fault> validate(const Motion& motion) {
   if (auto fault = finite(motion.start, "/time/0")) return fault;
   if (auto fault = finite(motion.end, "/time/1")) return fault;
   if (!(motion.start < motion.end)) return Fault{"/time", "the time must rise"};
-  if (motion.iterations < 0) return Fault{"/iterations", "must not be negative"};
+  if (motion.iterations < 0 || motion.iterations > limits::count) {
+    return Fault{"/iterations", "must be from 0 to " + std::to_string(limits::count)};
+  }
   if (auto fault = finite(motion.seconds.total, "/seconds/total")) return fault;
   if (auto fault = finite(motion.seconds.evaluate, "/seconds/evaluate")) return fault;
   if (auto fault = finite(motion.seconds.factor, "/seconds/factor")) return fault;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "protocol/declared.h"
 #include "protocol/limits.h"
@@ -7,6 +8,42 @@
 
 namespace spacetime {
 namespace {
+
+// ProgramFault's paths name fields of Program; in documents entries are lists and the prefixes' lengths an object.
+std::string document_path(std::string path) {
+  if (path == "value_operations") return "operations/values";
+  if (path == "jacobian_operations") return "operations/jacobian";
+  const std::pair<std::string_view, std::string_view> fields[] = {
+      {"/row", "/0"}, {"/input", "/1"}, {"/column", "/1"}, {"/value", "/2"}};
+  if (!path.starts_with("jacobian/") && !path.starts_with("hessian/")) return path;
+  for (const auto& [field, index] : fields) {
+    if (path.ends_with(field)) return path.replace(path.size() - field.size(), field.size(), index);
+  }
+  return path;
+}
+
+// Before anything refers to a program.  Whoever holds a problem has asked once: actions on it need no more than what
+// its programs need.
+void check_programs(const Problem& problem) {
+  std::size_t operations = 0;
+  for (const auto& [key, program] : problem.programs) {
+    const auto path = below("/programs", key);
+    operations += program.op.size();
+    if (operations > limits::operations) {
+      fail("/programs", "more than " + std::to_string(limits::operations) + " operations, the limit of one problem");
+    }
+    if (auto fault = validate(program)) fail(path + '/' + document_path(fault->path), fault->message);
+  }
+}
+
+void check_hashes(const Problem& problem) {
+  for (const auto& [key, program] : problem.programs) {
+    if (const auto own = hash(program); own != key) {
+      fail(below("/programs", key),
+           "is not the program's hash, which is " + own + ": " + std::string(probably_rounded));
+    }
+  }
+}
 
 // Walks the statements in an order in which everything is known before it is referred to.
 class Check {
@@ -181,7 +218,9 @@ std::optional<Fault> validate(const Problem& problem) {
     if (!std::isfinite(problem.start)) fail("/time/0", "must be finite");
     if (!std::isfinite(problem.end)) fail("/time/1", "must be finite");
     if (!(problem.start < problem.end)) fail("/time", "the time must rise");
+    check_programs(problem);
     const Declared declared(problem);
+    check_hashes(problem);
     check_statements(declared);
     check_actions(declared);
     return std::nullopt;

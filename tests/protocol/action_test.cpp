@@ -28,6 +28,17 @@ TEST(ActionDocuments, HoldEveryAction) {
   EXPECT_EQ(kinds.size(), std::variant_size_v<Action>);
 }
 
+// A drag sets a constant many times a second: what was settled when the problem came is not settled again each time.
+TEST(ActionDocuments, OfAProblemThatHasBeenCheckedAreCheckedAlone) {
+  auto problem = examples::busy_problem();
+  auto& [name, program] = *problem.programs.begin();
+  const SetConstant set{problem.constants.front().name, {2, {}, 0}};
+  program.value_operations += 1;
+  ASSERT_EQ(validate(problem)->path.substr(0, 10), "/programs/");
+  EXPECT_FALSE(validate(set, problem));
+  EXPECT_EQ(validate(SetConstant{"nobody", {2, {}, 0}}, problem)->path, "/constant");
+}
+
 TEST(ActionDocuments, HaveTheAgreedMembers) {
   const auto text = write(examples::busy_problem());
   const auto found = text.substr(text.find(" \"actions\""));
