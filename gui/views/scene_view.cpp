@@ -115,7 +115,10 @@ std::optional<PlaceHandle> draw_places(Ui& ui, const ImVec2& corner, const glm::
     list.AddLine({here.x + r - 4, here.y}, {here.x + r + 4, here.y}, colour, ui.scaled(2));
     list.AddLine({here.x, here.y - r - 4}, {here.x, here.y - r + 4}, colour, ui.scaled(2));
     list.AddLine({here.x, here.y + r - 4}, {here.x, here.y + r + 4}, colour, ui.scaled(2));
-    list.AddText({here.x + r + 6, here.y - ImGui::GetFontSize() / 2}, colour, place.name.c_str());
+    const float wide = ImGui::CalcTextSize(place.name.c_str()).x, beside = r + 6;
+    const bool fits = here.x + beside + wide < corner.x + size.x;
+    list.AddText({fits ? here.x + beside : here.x - beside - wide, here.y - ImGui::GetFontSize() / 2}, colour,
+                 place.name.c_str());
     ui.memory.places["place " + place.name] = {here.x - r, here.y - r, 2 * r, 2 * r};
   }
   return hot;

@@ -85,7 +85,7 @@ std::vector<Name> names_in(const Ui& ui, const Picture& picture) {
   const Palette& colours = palette(picture.theme);
   const ImVec4 ink = as_shown(colours.ink);
   std::vector<Name> names;
-  if (!picture.lines.empty()) names.push_back({"way through space", as_shown(colours.faint), {Sample::Kind::line, 0}});
+  if (!picture.lines.empty()) names.push_back({"trail", as_shown(colours.faint), {Sample::Kind::line, 0}});
   struct Kind {
     Mark::Kind kind;
     const char* text;
@@ -98,10 +98,10 @@ std::vector<Name> names_in(const Ui& ui, const Picture& picture) {
   for (const Kind& kind : kinds)
     if (std::ranges::count(picture.marks, kind.kind, &Mark::kind) > 0)
       names.push_back({kind.text, as_shown(kind.colour), {Sample::Kind::mark, static_cast<int>(kind.kind)}});
-  if (s.ghost) names.push_back({"before the last edit or run", ink, {Sample::Kind::ghost, 0, 0.45F}});
-  if (!s.pins.empty()) names.push_back({"pinned", ink, {Sample::Kind::ghost, 0, 0.4F}});
+  if (s.ghost) names.push_back({"ghost before the last edit or run", ink, {Sample::Kind::ghost, 0, 0.45F}});
+  if (!s.pins.empty()) names.push_back({"pinned ghost", ink, {Sample::Kind::ghost, 0, 0.4F}});
   if (m.ghosts && !s.playback.playing)
-    names.push_back({"five poses from start to end", ink, {Sample::Kind::ghost, 0, 0.2F}});
+    names.push_back({"ghosts along the motion", ink, {Sample::Kind::ghost, 0, 0.2F}});
   if (!picture.arrows.empty() || !picture.torques.empty())
     names.push_back({"joint forces", as_shown(colours.soft), {Sample::Kind::arrow}});
   return names;
