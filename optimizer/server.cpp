@@ -30,6 +30,8 @@ using protocol::Error;
 using protocol::Turn;
 
 // A solve or iterate that goes on.
+constexpr double slowest = 0.1, fastest = 1000;  // iterations a second that can be asked for
+
 struct Run {
   Solve rest;     // what is left of it, an `iterate` being a solve with that many iterations
   int since = 0;  // the iteration at which its last edit, or itself, began
@@ -78,7 +80,10 @@ class Peer {
   }
 
   void act(const Node& params, Writer& result, Call& call) {
-    params.object({"action"}, {"revision", "progress"});
+    params.object({"action"}, {"revision", "progress", "pace"});
+    const auto pace = params.find("pace");
+    if (pace && !(pace->number() >= slowest && pace->number() <= fastest))
+      pace->expected(fmt::format("a number from {} to {}", slowest, fastest));
     Session& session = present();
     const Node node = params["action"];
     const PlacedAction asked = action_from(node);
@@ -90,7 +95,7 @@ class Peer {
     const bool edit = is_edit(asked.action);
     SPACETIME_ASSERT(edit || !run_);
     try {
-      edit ? session.perform(asked.action) : run(asked.action, result, call);
+      edit ? session.perform(asked.action) : run(asked.action, pace ? pace->number() : 0, result, call);
     } catch (const InputError& error) {
       throw refused(asked.action, error.what());
     }
@@ -174,7 +179,8 @@ class Peer {
     write_edit(result, std::move(done), session_->iterations());
   }
 
-  void run(const Action& action, Writer& result, Call& call) {
+  // `pace`: at most so many iterations a second; 0: as fast as it can.
+  void run(const Action& action, double pace, Writer& result, Call& call) {
     Session& session = *session_;
     const int number = ++runs_;
     bool stopped = false;
@@ -189,15 +195,18 @@ class Peer {
       const protocol::Sharing sharing(account);
       work();
     };
-    watch.go_on = [&] {
-      stopped = !call.go_on();
-      return !stopped;
-    };
     Run run;
     if (const auto* solve = std::get_if<Solve>(&action)) run.rest = *solve;
     if (const auto* iterate = std::get_if<Iterate>(&action)) run.rest.iterations = iterate->iterations;
     run.since = run.begun = session.iterations();
     run_ = run;
+    using Clock = Call::Clock;
+    const std::chrono::duration<double> apart(pace > 0 && !run.many() ? 1 / pace : 0);
+    watch.go_on = [&, next = Clock::time_point()]() mutable {
+      stopped = !call.go_on(next);
+      next = std::max(next, Clock::now()) + std::chrono::ceil<Clock::duration>(apart);
+      return !stopped;
+    };
     const auto begun = std::chrono::steady_clock::now();
     struct Over {
       std::optional<Run>& run;

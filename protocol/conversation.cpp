@@ -40,7 +40,7 @@ class Conversation::Work final : public Call {
     }
   }
 
-  bool go_on() override { return conversation_.go_on(*this); }
+  bool go_on(Clock::time_point until) override { return conversation_.go_on(*this, until); }
   void progress(std::function<std::string()> value) override {
     conversation_.outlet_.offer([token = token_, revision = revision, value = std::move(value)] {
       std::string params = "{\"token\":" + token;
@@ -138,6 +138,7 @@ void Conversation::cancel(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (working_ && running_ == id) {
       cancel_ = true;
+      arrived_.notify_one();
       return;
     }
     const auto is_it = [&](const Item& item) { return item.request.id == id; };
@@ -368,7 +369,7 @@ Turn Conversation::turn_of(const Request& request) const {
 
 // What can be done between two steps is done in its order, past runs that wait: an edit is not held up by what is to
 // come after the run that it is meant for.  Nothing passes what ends the run, or the connection.
-bool Conversation::go_on(Work& work) {
+bool Conversation::go_on(Work& work, Call::Clock::time_point until) {
   for (;;) {
     Request request;
     {
@@ -376,7 +377,11 @@ bool Conversation::go_on(Work& work) {
       if (cancel_ || hung_up_) return false;
       if (outlet_.full()) return true;
       const auto place = std::ranges::find(waiting_, false, &Item::passed);
-      if (place == waiting_.end()) return true;
+      if (place == waiting_.end()) {
+        if (Call::Clock::now() >= until) return true;
+        arrived_.wait_until(lock, until);
+        continue;
+      }
       if (!read(place, lock)) continue;
       const Turn turn = turn_of(place->request);
       if (turn == Turn::ends) return false;

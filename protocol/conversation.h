@@ -72,7 +72,7 @@ class Conversation {
   void perform(Request& request, Writer& result, Work& work);
   void greet(const Node& params, Writer& result);
   Turn turn_of(const Request& request) const;
-  bool go_on(Work& work);
+  bool go_on(Work& work, Call::Clock::time_point until);
 
   const Service& service_;
   const Allowance& allowance_;

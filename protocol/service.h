@@ -1,6 +1,7 @@
 // What a daemon offers: a table from method to function.  It knows nothing of bytes, sockets or other peers.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,9 +20,11 @@ class Call {
  public:
   virtual ~Call() = default;
 
-  // To be asked between two steps of long work: serves requests that may be served now (Turn::between), and says
-  // whether to go on.
-  virtual bool go_on() = 0;
+  using Clock = std::chrono::steady_clock;
+
+  // To be asked between two steps of long work: serves requests that may be served now (Turn::between), and those that
+  // come until then, and says whether to go on.
+  virtual bool go_on(Clock::time_point until = {}) = 0;
 
   // The newest state of affairs, as JSON text that is only written when it can be sent.  An older one that has not been
   // sent by then is never sent.  `value` is called in another thread, but never twice at a time.

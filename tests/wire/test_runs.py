@@ -41,6 +41,28 @@ class Runs(unittest.TestCase):
                 self.assertEqual(without_words(self.replayed(session.log)), without_words(motion))
         print(f"cancelled: answered after {max(latencies) * 1e3:.1f} ms at most", flush=True)
 
+    def test_a_run_with_a_pace_keeps_it_and_hears_what_is_asked_meanwhile(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            number = session.peer.start("action/do", action={"action": "iterate", "iterations": 5}, pace=1000)
+            outcome = session.peer.answer(number)["result"]
+            self.assertGreaterEqual(outcome["seconds"], 0.004)
+            session.do(action="reset")
+            # Between two iterations that are ten seconds apart it answers, and ends, at once.
+            slow = session.peer.start("action/do", action={"action": "solve"}, pace=0.1)
+            self.assertEqual(session.wait_for_progress()["iteration"], 6)
+            for _ in range(3):
+                self.assertEqual(session.motion()["iterations"], 6)
+            session.peer.notify("$/cancelRequest", id=slow)
+            outcome = session.peer.answer(slow)["result"]
+            self.assertEqual((outcome["status"], outcome["iterations"]), ("stopped", 1))
+            self.assertLess(outcome["seconds"], 9)
+            for wrong in (0, -1, 1e9, "fast"):
+                error = session.peer.answer(
+                    session.peer.start("action/do", action={"action": "iterate", "iterations": 1}, pace=wrong))["error"]
+                self.assertIn("/pace", error["message"])
+
     def test_requests_that_wait_are_cancelled_and_answered(self):
         with peer.Daemon("optimizer") as daemon:
             session = Session(daemon)
