@@ -393,19 +393,46 @@ std::vector<Conflict> conflicts(const Transcription& t, const Layout& layout, st
   return Finder(t, x, std::move(relations)).run();
 }
 
+namespace {
+
+// By how much each member would have to give way, the largest first.  What is nothing beside that says how far the
+// constraint is from holding already, not that relaxing it would help.
+std::vector<std::string> ways_out(const Conflict& conflict) {
+  constexpr double nothing = 1e-6;
+  struct Way {
+    double give = 0;
+    std::string text;
+  };
+  std::vector<Way> ways;
+  double largest = 0;
+  for (const Member& member : conflict.members) {
+    // As it is told: equal numbers stay in the order of the scene, whatever the rounding behind them.
+    const std::string give = fmt::format("{:.3g}", member.give);
+    ways.push_back({std::stod(give), fmt::format("'{}' by {}", member.name, give)});
+    largest = std::max(largest, member.give);
+  }
+  std::ranges::stable_sort(ways, std::greater{}, &Way::give);
+  std::vector<std::string> told;
+  for (const Way& way : ways) {
+    if (way.give >= nothing * largest) told.push_back(way.text);
+  }
+  return told;
+}
+
+}  // namespace
+
 std::string sentence(const Conflict& conflict) {
-  std::vector<std::string> members, gives, bounds;
+  std::vector<std::string> members, bounds;
   for (const Member& member : conflict.members) {
     std::string text = fmt::format("'{}' (line {}", member.name, member.line);
     if (const std::string when = seconds(member.times); !when.empty()) text += ", at " + when;
     members.push_back(text + ")");
-    gives.push_back(fmt::format("'{}' by {:.3g}", member.name, member.give));
   }
   for (const Member& bound : conflict.bounds) bounds.push_back(named(bound.name, bound.line));
   const std::string within = bounds.empty() ? "" : " within the bounds of " + listed(bounds);
   if (members.size() > 1) {
     return fmt::format("{} cannot hold together{}. To reconcile them relax {}.", listed(members), within,
-                       listed(gives, "or"));
+                       listed(ways_out(conflict), "or"));
   }
   const Member& only = conflict.members.front();
   const bool many = only.times.size() > 1;

@@ -61,9 +61,10 @@ std::vector<Violation> violations(const Transcription& t, std::span<const double
   return result;
 }
 
-std::string worst_of(const std::vector<Violation>& all) {
+std::string worst_of(const std::vector<Violation>& all, double tolerance) {
   const auto worst = std::ranges::max_element(all, {}, &Violation::max);
   if (worst == all.end() || worst->max == 0) return "every hard constraint holds";
+  if (worst->max <= tolerance) return fmt::format("every hard constraint holds to {:.3g}", tolerance);
   std::string text = fmt::format("'{}' (line {}) is off by {:.3g}", worst->name, worst->line, worst->max);
   if (worst->time) text += fmt::format(" at {:.4g} s", *worst->time);
   return text;
@@ -71,7 +72,7 @@ std::string worst_of(const std::vector<Violation>& all) {
 
 Outcome outcome_of(StepResult result, const Transcription& t, const Layout& layout, const NewtonState& state,
                    double tolerance) {
-  const std::string worst = worst_of(violations(t, state.x, state.values));
+  const std::string worst = worst_of(violations(t, state.x, state.values), tolerance);
   switch (result) {
     case StepResult::converged:
       return {Status::converged,

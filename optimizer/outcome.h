@@ -19,8 +19,8 @@ struct Outcome {
 // The largest violation of each hard constraint, in the scene's order, then of each bounded degree of freedom.
 std::vector<Violation> violations(const Transcription& transcription, std::span<const double> x, const Values& values);
 
-// "every hard constraint holds", or which is off most, where and by how much.
-std::string worst_of(const std::vector<Violation>& all);
+// "every hard constraint holds", or which is off most, where and by how much, where that is more than the tolerance.
+std::string worst_of(const std::vector<Violation>& all, double tolerance);
 
 Outcome outcome_of(StepResult result, const Transcription& transcription, const Layout& layout,
                    const NewtonState& state, double tolerance);

@@ -126,7 +126,7 @@ class Session {
   void judge(double tolerance);
   bool reached(double tolerance) const;
   std::string nth_iteration() const;  // "iteration 12", the last
-  std::string standing() const;
+  std::string standing(double tolerance) const;
   bool foreign() const { return other_.index() != 0; }
   std::vector<double> unknowns() const;
   std::vector<double> unknowns(const Curves& curves) const;

@@ -92,7 +92,7 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   };
   if (asked_to_stop()) {
     if (restarts_ == restarts)
-      stop(fmt::format("Interrupted before the first of {} starts. ", starts) + standing());
+      stop(fmt::format("Interrupted before the first of {} starts. ", starts) + standing(tolerance));
     else
       stop(ended_by_edit);
     return;
@@ -128,12 +128,12 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   if (stopped) {
     stop(fmt::format("Interrupted at {}, when of {} starts {} had ended and {} The best so far is kept. ",
                      nth_iteration(), starts, ended, found) +
-         (result == StepResult::converged ? "It has converged." + standing_elsewhere(tolerance) : standing()));
+         (result == StepResult::converged ? "It has converged." + standing_elsewhere(tolerance) : standing(tolerance)));
     if (watch.progress) watch.progress(record());
     return;
   }
   if (result == StepResult::stepped) {
-    stop("Stopped at " + nth_iteration() + ". " + standing());
+    stop("Stopped at " + nth_iteration() + ". " + standing(tolerance));
   } else {
     outcome_ = outcome_of(result, now_->t(), now_->layout, state_, tolerance);
     outcome_.message += standing_elsewhere(tolerance);
@@ -175,7 +175,7 @@ void Session::iterate_by(const Make& make, int limit, double tolerance, const Wa
       return std::nullopt;
     }
     if (result == StepResult::exhausted) {
-      const std::string worst = worst_of(violations(now_->t(), state.x, state.values));
+      const std::string worst = worst_of(violations(now_->t(), state.x, state.values), tolerance);
       return Outcome{Status::stopped, method->ending(state) + "; " + worst + "."};
     }
     // What is told of the end is told of this point.
@@ -192,12 +192,14 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
   for (int k = 0;; ++k) {
     const bool last = k >= limit;
     if (!last && watch.go_on && !watch.go_on()) {
-      return stop("Interrupted at " + nth_iteration() + ". " + standing());
+      return stop("Interrupted at " + nth_iteration() + ". " + standing(tolerance));
     }
     const bool afresh = restarts_ != restarts;
     restarts = restarts_;
     judged_ = true;  // what edits have changed meanwhile is judged by what follows
-    const auto use_up = [&] { stop("Stopped at " + nth_iteration() + ": no more were allowed. " + standing()); };
+    const auto use_up = [&] {
+      stop("Stopped at " + nth_iteration() + ": no more were allowed. " + standing(tolerance));
+    };
     if (last && state_.condition == StepResult::stepped && !reached(tolerance)) return use_up();
     std::optional<NewtonState> here;
     if (last) here = state_;
@@ -219,7 +221,7 @@ void Session::judge(double tolerance) {
   iterate(0, tolerance, {});
   if (outcome_.status != Status::stopped) return;
   stop((state_.iterations == 0 ? "Nothing has been iterated yet. " : "Edited since " + nth_iteration() + ". ") +
-       standing() + standing_elsewhere(tolerance));
+       standing(tolerance) + standing_elsewhere(tolerance));
 }
 
 void Session::stop(std::string message) {
@@ -233,9 +235,9 @@ bool Session::reached(double tolerance) const {
 
 std::string Session::nth_iteration() const { return fmt::format("iteration {}", state_.iterations); }
 
-std::string Session::standing() const {
+std::string Session::standing(double tolerance) const {
   return fmt::format("The gradient of the Lagrangian is at {:.3g} of the objective's; {}.",
-                     state_.measures.stationarity, worst_of(violations(now_->t(), state_.x, state_.values)));
+                     state_.measures.stationarity, worst_of(violations(now_->t(), state_.x, state_.values), tolerance));
 }
 
 // What a window leaves to be said.
@@ -246,7 +248,7 @@ std::string Session::standing_elsewhere(double tolerance) const {
   const auto all =
       violations(now_->whole, x, evaluate(now_->whole, x, workspace, active_rows(now_->whole, x, workspace)));
   const bool holds = std::ranges::all_of(all, [&](const Violation& v) { return v.max <= tolerance; });
-  return " That is within the window" + (holds ? "." : "; over the whole time " + worst_of(all) + ".");
+  return " That is within the window" + (holds ? "." : "; over the whole time " + worst_of(all, tolerance) + ".");
 }
 
 }  // namespace spacetime::optimizer

@@ -44,7 +44,7 @@ minimize integral(x''^2 + y''^2)
 )");
   expect_said(motion, Status::infeasible,
               {"'a' (line 5, at 0.5 s), 'b' (line 6, at 0.5 s) and 'c' (line 8, at 0.5 s) cannot hold together.",
-               "relax 'a' by 1, 'b' by 1 or 'c' by 10."});
+               "relax 'c' by 10, 'a' by 1 or 'b' by 1."});
   expect_silent(motion, {"'calm'"});
 }
 
@@ -104,7 +104,7 @@ minimize integral(x''^2)
   expect_said(motion, Status::infeasible,
               {"'from' (line 4, at 0 s), 'to' (line 5, at 1 s) and 'slow' (line 6, at 0, 0.0625, ..., 1 s (17 times)) "
                "cannot hold together.",
-               "relax 'from' by 1, 'to' by 1 or 'slow' by 1."});
+               "relax 'slow' by 1.", "'from' by 1 or 'to' by 1."});
 }
 
 const std::string arm = R"(time [0, 1]
@@ -158,7 +158,7 @@ constrain other: y = 1 at 0
 minimize integral(x''^2 + y''^2)
 )");
   expect_said(motion, Status::infeasible,
-              {"'area' (line 5) and 'under' (line 6, at", "relax 'area' by 1 or 'under' by 1"});
+              {"'area' (line 5) and 'under' (line 6, at", "relax 'under' by 1.", " or 'area' by 1."});
   expect_silent(motion, {"'other'"});
 }
 

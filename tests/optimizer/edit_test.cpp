@@ -191,6 +191,11 @@ TEST(Edits, TheStatusIsWhatIsTrueOfTheMotionAsItStands) {
     EXPECT_TRUE(motion.message.starts_with("Edited since iteration ")) << edit << motion.message;
     EXPECT_EQ(after(edit + std::string("solve\n")).status, Status::converged) << edit;
   }
+  // What is off by less than the tolerance is not told of.
+  const Motion weighed = after("weight more = 3\n");
+  EXPECT_EQ(weighed.status, Status::stopped);
+  EXPECT_LE(weighed.violation, 1e-8);
+  EXPECT_NE(weighed.message.find("; every hard constraint holds"), std::string::npos) << weighed.message;
   const Motion sketch = run(compiled(question + "shake amplitude 0.1\n"), {});
   EXPECT_TRUE(sketch.message.starts_with("Nothing has been iterated yet")) << sketch.message;
 }
