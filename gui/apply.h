@@ -78,6 +78,8 @@ void apply(State& state, const SetPlayback& event, Effects& effects);
 void apply(State& state, const Select& event, Effects& effects);
 void apply(State& state, const Pin& event, Effects& effects);
 void apply(State& state, const ShowSpan& event, Effects& effects);
+void apply(State& state, const SetPace& event, Effects& effects);
+void apply(State& state, const Remark& event, Effects& effects);
 void apply(State& state, const SetPose& event, Effects& effects);
 void apply(State& state, const CopyPose& event, Effects& effects);
 void apply(State& state, const PastePose& event, Effects& effects);
@@ -91,13 +93,16 @@ void apply(State& state, const DaemonIs& event, Effects& effects);
 // update.cpp: what they share.
 int ask(State& state, Effects& effects, Request request, Wanted wanted);
 void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted);
-int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted);
+// `pace`: of a run, in iterations a second; 0: as fast as it can.
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, double pace = 0);
 void ask_motion(State& state, Effects& effects, Wanted wanted);    // with its checkpoint where that is wanted
 void forget(State& state, Wanted::Kind kind);                      // answers of this kind are nobody's any more
 std::string member(std::string_view name, std::string_view text);  // "name":"text", as JSON
 void notify(State& state, Notice notice);
-Entry* entry_of(State& state, int number);  // null where it is cut away
-bool ready(const State& state);             // there is a problem to act on
+constexpr double remark_seconds = 6;                 // a remark stays so long
+void remark(State& state, const std::string& text);  // quietly, in the status line, for a few seconds
+Entry* entry_of(State& state, int number);           // null where it is cut away
+bool ready(const State& state);                      // there is a problem to act on
 
 // The log.
 std::string ready_for_more(std::string text);  // with a line's end, unless a statement can follow where it ends
@@ -109,5 +114,6 @@ void cut_redo(State& state);
 void append(State& state, Entry entry, bool merge, bool seen, Effects& effects);
 void show(State& state, const Entry& entry);  // its motion, at once
 std::shared_ptr<const Curves> curves_of(const Motion& motion);
+void keep_ghost(State& state, std::shared_ptr<const Curves> curves);  // the motion of the present entry
 
 }  // namespace spacetime::gui

@@ -77,6 +77,12 @@ struct Pin {  // the pose at a time is shown, pale, whatever the time
 struct ShowSpan {  // of time, in which curves are looked at: samples are to be fine there
   double from = 0, to = 0;
 };
+struct SetPace {  // of the runs that follow, in iterations a second; 0: as fast as they can
+  double pace = 0;
+};
+struct Remark {  // of a view, to be told quietly
+  std::string text;
+};
 struct SetPose {  // absent: none
   std::optional<Pose> pose;
 };
@@ -187,9 +193,9 @@ struct Restored {  // entries with their texts alone in `scene`
 };
 
 using Event = std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Pause, Continue, Undo, Redo, GoTo,
-                           Steer, Steered, DropGhost, Ask, Play, SetPlayback, Select, Pin, ShowSpan, SetPose, CopyPose,
-                           PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick, DaemonIs, Compiled, Iterated, Done,
-                           Reached, Sampled, Answered, Acknowledged, Refused, FileRead, FileFailed, FileWritten,
-                           FileChanged, SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
+                           Steer, Steered, DropGhost, Ask, Play, SetPlayback, Select, Pin, ShowSpan, SetPace, Remark,
+                           SetPose, CopyPose, PastePose, KeyPose, Draft, SetTheme, Dismiss, Tick, DaemonIs, Compiled,
+                           Iterated, Done, Reached, Sampled, Answered, Acknowledged, Refused, FileRead, FileFailed,
+                           FileWritten, FileChanged, SettingsRead, SessionsFound, Restored, Film, DropFilm, Filmed>;
 
 }  // namespace spacetime::gui

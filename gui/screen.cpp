@@ -2,6 +2,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
+#include <imgui_internal.h>
 
 #include "gui/views/keys.h"
 
@@ -33,7 +34,13 @@ void Screen::wheel(float by) { ImGui::GetIO().MouseWheel += by; }
 
 void Screen::key(int glfw_key, bool down) { input_.key(glfw_key, down, 0); }
 
-void Screen::type(const std::string& text) { ImGui::GetIO().AddInputCharactersUTF8(text.c_str()); }
+void Screen::type(const std::string& text) {
+  for (const char* at = text.c_str(); *at != '\0';) {
+    unsigned code = 0;
+    at += ImTextCharFromUtf8(&code, at, nullptr);
+    input_.character(code);
+  }
+}
 
 void Screen::finish() { glFinish(); }
 

@@ -36,4 +36,12 @@ bool can_continue(const State& state) {
   return state.paused && !state.running && state.present >= 0 && state.log[state.present].number == state.paused->entry;
 }
 
+std::optional<int> entry_of_ghost(const State& state) {
+  for (int i = 0; state.ghost && i < state.present; ++i) {
+    const Entry& entry = state.log[i];
+    if (entry.number == state.ghost_entry && entry.checkpoint) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace spacetime::gui

@@ -50,6 +50,10 @@ struct Curves {
 struct Record {
   std::vector<IterationRecord> iterations;  // the first is where it began
   std::vector<int> edits;                   // numbers of iterations after which something was edited while it ran
+  int run = 0;                              // which one of the session, from 1; 0: none
+
+  int began() const { return iterations.empty() ? 0 : iterations.front().iteration; }
+  int made() const { return iterations.empty() ? 0 : iterations.back().iteration - began(); }  // iterations
 };
 
 // One line of the log: something that was done, in the scene language, and where it led.
@@ -71,11 +75,13 @@ struct Daemon {
   bool met = false;  // it has been ready before
 };
 
-// A constant, key, slider or control point that is being dragged: the motion follows, and one line is left of it.
+// A constant, weight, key, slider or control point that is being dragged: the motion follows, and one line is left of
+// it.
 struct Steering {
   std::string line;                  // that would be written now: set BasketX = 2.71; set BasketY = 0.5
   std::vector<std::string> actions;  // the same, each as JSON
   std::vector<std::pair<std::string, double>> constants{};  // that it sets
+  std::vector<std::pair<std::string, double>> weights{};    // likewise, of equations
   bool afresh = false;  // each value from the motion before the drag, not from where the one before it led
   bool solves = true;   // false: what it leads to is the edit alone, which solving would take back
 };
@@ -130,6 +136,7 @@ struct State {
   // The session.
   std::string file;                    // empty where it was never saved
   std::string saved;                   // the text that the file holds
+  std::string saving;                  // the file that is being written; empty: none
   std::vector<Entry> log;              // the first is the scene as it was opened
   int present = -1;                    // index of the entry that is shown; those behind it can be redone
   std::vector<std::string> script;     // actions that the file brought and that were not performed yet, line by line
@@ -138,6 +145,7 @@ struct State {
   // The motion.
   std::shared_ptr<const Curves> curves;  // newest; null before there is a problem
   std::shared_ptr<const Curves> ghost;   // the motion before the last edit, while it is shown
+  int ghost_entry = 0;                   // number of the entry that it is of
   std::shared_ptr<const Motion> motion;  // the last whole motion: status, terms, violations, multipliers
   // Of all plots, of `curves` or shortly before: evenly over the time, and finer over the span that is shown.
   std::shared_ptr<const Samples> samples;
@@ -162,6 +170,7 @@ struct State {
 
   // How it is looked at.
   Playback playback;
+  double pace = 0;                       // iterations a second that runs are held to; 0: none
   std::vector<double> pins;              // s, rising: ghosts of the figure at these times
   std::pair<double, double> span{0, 0};  // s, of the time that curves are shown of; as long as it is empty, all of it
   Selection selection;
@@ -182,6 +191,8 @@ bool can_redo(const State& state);
 bool can_pause(const State& state);
 // A run was paused, and it can go on from where the session is.
 bool can_continue(const State& state);
+// Index of the entry whose motion the ghost is, where it can be gone back to.
+std::optional<int> entry_of_ghost(const State& state);
 // The scene text of the present entry, or the one with mistakes.
 std::string text_of(const State& state);
 // What a file would hold: the text, and behind it what the script still has to do.

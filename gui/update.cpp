@@ -5,6 +5,7 @@
 #include "common/sample.h"
 #include "gui/apply.h"
 #include "gui/journal.h"
+#include "gui/words.h"
 #include "protocol/writer.h"
 
 namespace spacetime::gui {
@@ -115,11 +116,12 @@ void ask_compile(State& state, Effects& effects, std::string text, Wanted wanted
   ask(state, effects, std::move(request), wanted);
 }
 
-int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted) {
+int ask_action(State& state, Effects& effects, const std::string& action, Wanted wanted, double pace) {
   const bool runs = wanted.kind == Wanted::Kind::run || wanted.kind == Wanted::Kind::steer_run;
   Request request;
   request.method = "action/do";
   request.params = "\"action\":" + action;
+  if (pace > 0) request.params += ",\"pace\":" + number_text(pace);
   request.answer = runs ? Request::Answer::run : Request::Answer::done;
   return ask(state, effects, std::move(request), wanted);
 }
@@ -150,6 +152,10 @@ void notify(State& state, Notice notice) {
   constexpr std::size_t most = 20;
   if (state.notices.size() >= most) state.notices.erase(state.notices.begin());
   state.notices.push_back(std::move(notice));
+}
+
+void remark(State& state, const std::string& text) {
+  notify(state, {.text = text, .until = state.clock + remark_seconds});
 }
 
 Entry* entry_of(State& state, int number) {
@@ -227,6 +233,11 @@ void append(State& state, Entry entry, bool merge, bool seen, Effects& effects) 
 
 std::shared_ptr<const Curves> curves_of(const Motion& motion) {
   return std::make_shared<Curves>(Curves{motion.dofs, motion.constants, motion.parameters});
+}
+
+void keep_ghost(State& state, std::shared_ptr<const Curves> curves) {
+  state.ghost = std::move(curves);
+  state.ghost_entry = state.log[state.present].number;
 }
 
 void show(State& state, const Entry& entry) {

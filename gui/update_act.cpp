@@ -65,12 +65,23 @@ std::vector<Statement> added_statements(const Scene& base, const Scene& compiled
   return added;
 }
 
+// How many runs there were up to the present entry; of a session that was brought back each entry that iterated is one.
+int runs_up_to(const State& state) {
+  int runs = 0;
+  for (int i = 0; i <= state.present; ++i) {
+    const Entry& entry = state.log[i];
+    if (entry.iterated) runs = std::max(runs + (entry.record.run == 0 ? 1 : 0), entry.record.run);
+  }
+  return runs;
+}
+
 // A run that goes on where the last one ended is recorded with that, one after an edit anew, from the motion it began
 // at.
 void begin_record(State& state) {
   const Entry& entry = state.log[state.present];
   if (state.work.recorded == entry.number) return;
   state.record = {};
+  state.record.run = runs_up_to(state) + 1;
   if (!entry.motion) return;
   const Motion& motion = *entry.motion;
   IterationRecord start;
@@ -185,7 +196,8 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   for (auto i = static_cast<std::size_t>(actions_of(base)); i < actions.size(); ++i) {
     const std::string action = json_of(actions[i].action);
     if (runs) {
-      work.run = ask_action(state, effects, action, {Kind::run});
+      // What follows a drag is a part of it, and does not dawdle.
+      work.run = ask_action(state, effects, action, {Kind::run}, task.merge ? 0 : state.pace);
       work.action = action;
       work.line = task.line;
       work.merge = task.merge;
@@ -196,7 +208,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
       state.stopping = false;
       begin_record(state);
       if (!state.ghost || work.ghosted != work.began) {
-        state.ghost = state.curves;
+        keep_ghost(state, state.curves);
         work.ghosted = 0;
       }
       work.job = {};
@@ -264,7 +276,7 @@ void finish_task(State& state, Effects& effects) {
   if (task.scripted) take_from_script(state);
   // After a drag the curves shown are those it led to already.
   const auto& before = state.log[state.present].motion;
-  if (!work.run) state.ghost = before ? curves_of(*before) : state.curves;
+  if (!work.run) keep_ghost(state, before ? curves_of(*before) : state.curves);
   if (work.run && !state.record.iterations.empty())
     state.record.edits.push_back(state.record.iterations.back().iteration);
   work.job = {};

@@ -39,7 +39,7 @@ void advance_drag(State& state, Effects& effects) {
   if (!drag.begun) {
     if (work.run) return stop_run(state, effects);
     if (!state.log[state.present].checkpoint) return;
-    state.ghost = state.curves;
+    keep_ghost(state, state.curves);
   }
   if (!drag.fresh || drag.unanswered > 0) {
     // Iterations for a value that is no more are not waited for.

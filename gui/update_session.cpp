@@ -1,5 +1,6 @@
 // Files, the log, and going to and fro in it.
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "gui/apply.h"
@@ -8,6 +9,7 @@
 namespace spacetime::gui {
 namespace {
 
+namespace fs = std::filesystem;
 using Kind = Wanted::Kind;
 using Place = Notice::Place;
 
@@ -28,6 +30,7 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
   next.film = std::move(state.film);  // it is of the motion that was, and goes on
   next.clock = state.clock;
   next.dark = state.dark;
+  next.pace = state.pace;
   next.playback = state.playback;
   next.playback.time = 0;
   next.playback.playing = false;
@@ -154,6 +157,7 @@ void apply(State& state, const FileRead& event, Effects& effects) {
 }
 
 void apply(State& state, const FileFailed& event, Effects&) {
+  if (event.file == state.saving) state.saving.clear();
   notify(state, {.severity = Severity::error, .text = event.message, .about = event.file, .lasting = true});
 }
 
@@ -161,6 +165,7 @@ void apply(State& state, const FileFailed& event, Effects&) {
 void apply(State& state, const FileChanged& event, Effects& effects) {
   if (event.refused) {
     state.work.overwrite = event.file;
+    state.saving.clear();
     return notify(state, {.severity = Severity::warning,
                           .text = "Not saved: '" + event.file +
                                   "' was changed by another program since it was read. Save once more to replace "
@@ -187,6 +192,7 @@ void apply(State& state, const Save& event, Effects& effects) {
     return;
   }
   const bool overwrite = std::exchange(state.work.overwrite, {}) == file;
+  state.saving = file;
   effects.push_back(WriteFile{file, text_to_save(state), overwrite});
 }
 
@@ -195,6 +201,8 @@ void apply(State& state, const FileWritten& event, Effects& effects) {
   std::erase_if(state.notices, [](const Notice& notice) { return notice.lasting && !notice.about.empty(); });
   state.file = event.file;
   state.saved = event.text;
+  state.saving.clear();
+  remark(state, fs::path(event.file).filename().string() + " is saved.");
   effects.push_back(JournalLine{journal_saved(state)});
   effects.push_back(WatchFile{event.file});
   remember(state, event.file, effects);

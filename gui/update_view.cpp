@@ -1,4 +1,6 @@
 // How it is looked at: playback, selection, poses, drafts, notices; and how the daemons are.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +14,6 @@ namespace {
 
 using Place = Notice::Place;
 
-constexpr double note_seconds = 6;     // a quiet notice stays so long
 constexpr std::size_t most_pins = 40;  // more ghosts tell nothing, and cost as many figures a frame
 
 // The other side's name, for a pose that is to be mirrored: left for right, with either case.
@@ -38,13 +39,26 @@ void apply(State& state, const Select& event, Effects&) { state.selection = even
 
 void apply(State& state, const Pin& event, Effects& effects) {
   const auto there = [&](double time) { return std::abs(time - event.time) < same_time; };
-  std::erase_if(state.pins, there);
-  if (event.on && state.pins.size() < most_pins)
+  const bool was_there = std::erase_if(state.pins, there) > 0;
+  const std::string when = fmt::format("{:.4g} s", event.time);
+  if (!event.on) {
+    if (was_there) remark(state, "The ghost at " + when + " is gone.");
+  } else if (!state.curves) {
+    remark(state, "There is no figure yet to pin a ghost of.");
+  } else if (state.pins.size() >= most_pins) {
+    remark(state, fmt::format("No ghost is pinned: there are {} already.", most_pins));
+  } else {
     state.pins.insert(std::ranges::upper_bound(state.pins, event.time), event.time);
-  effects.push_back(JournalLine{journal_pins(state)});
+    remark(state, "A ghost is pinned at " + when + ": go to another time to see it beside the figure.");
+  }
+  if (state.present >= 0) effects.push_back(JournalLine{journal_pins(state)});
 }
 
 void apply(State& state, const ShowSpan& event, Effects&) { state.span = {event.from, event.to}; }
+
+void apply(State& state, const SetPace& event, Effects&) { state.pace = event.pace; }
+
+void apply(State& state, const Remark& event, Effects&) { remark(state, event.text); }
 
 void apply(State& state, const SetPose& event, Effects&) { state.pose = event.pose; }
 
@@ -79,7 +93,7 @@ void apply(State& state, const KeyPose&, Effects& effects) {
   state.pose.reset();
   notify(state, {.place = Place::view,
                  .text = "Keyed as a starting guess: Run may move it. To hold the pose, add a constraint.",
-                 .until = state.clock + note_seconds});
+                 .until = state.clock + remark_seconds});
   apply(state, Act{line, Place::timeline, ""}, effects);
 }
 
@@ -124,8 +138,7 @@ void apply(State& state, const DaemonIs& event, Effects&) {
   using Condition = Daemon::Condition;
   if (event.condition == Condition::ready && daemon.condition != Condition::ready && daemon.met) {
     ++daemon.restarts;
-    notify(state,
-           {.text = name + " ended and was started again; nothing is lost.", .until = state.clock + note_seconds});
+    remark(state, name + " ended and was started again; nothing is lost.");
   }
   if (event.condition == Condition::lost) {
     notify(state, {.severity = Severity::error,

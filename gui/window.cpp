@@ -31,6 +31,7 @@ Input input;
 void take_key(GLFWwindow*, int key, int, int action, int modifiers) {
   if (action != GLFW_REPEAT) input.key(key, action == GLFW_PRESS, modifiers);
 }
+void take_character(GLFWwindow*, unsigned code) { input.character(code); }
 void take_button(GLFWwindow* window, int which, int action, int) {
   double x = 0, y = 0;
   glfwGetCursorPos(window, &x, &y);
@@ -62,6 +63,7 @@ class Shell {
     glfwSetKeyCallback(window, take_key);  // ImGui's own, set next, call them first
     glfwSetMouseButtonCallback(window, take_button);
     ImGui_ImplGlfw_InitForOpenGL(window, true);
+    glfwSetCharCallback(window, take_character);  // in place of ImGui's own, which passes the keys by
     ImGui_ImplOpenGL3_Init("#version 330");
   }
   ~Shell() {

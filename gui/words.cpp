@@ -198,6 +198,12 @@ std::string brief(std::string_view line) {
   return text;
 }
 
+std::string in_one_line(std::string_view text) {
+  std::string out;
+  for (const char c : trimmed(text)) out += c == '\n' ? std::string("; ") : std::string(1, c);
+  return out;
+}
+
 std::string trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};

@@ -59,6 +59,9 @@ bool same_action(const std::string& a, const std::string& b);
 // The line with its numbers to four significant digits: to be looked at, not to be read again.
 std::string brief(std::string_view line);
 
+// Lines as one, as the language takes them: with `; ` between.
+std::string in_one_line(std::string_view text);
+
 // Without spaces and line ends at its ends.
 std::string trimmed(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/views/steered.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
@@ -28,15 +29,14 @@ void draw_constants(Ui& ui) {
     ImGui::TextWrapped(
         "The scene has no constants. Write 'constant basket = 2.5' in it, and use the name in constraints: "
         "its value can then be dragged here while the motion follows.");
-  ImGui::TextDisabled("Drag a value: the motion follows. Ctrl+click to type.");
+  ImGui::TextDisabled("Drag a value: the motion follows. Click to type.");
   if (ImGui::BeginTable("constants", 2, ImGuiTableFlags_RowBg)) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, ui.scaled(130));
     for (const Constant& constant : s.scene->problem->constants) {
       const auto& values = ui.question().constants;
       const auto found = values.find(constant.name);
-      double value = found == values.end() ? 0 : found->second;
-      const double before = value;
+      const double value = found == values.end() ? 0 : found->second;
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       ImGui::AlignTextToFramePadding();
@@ -47,7 +47,6 @@ void draw_constants(Ui& ui) {
         ui.help("It follows from other constants until it is set itself.");
       }
       ImGui::TableNextColumn();
-      ImGui::SetNextItemWidth(-1);
       if (constant.frozen) {
         ImGui::TextDisabled("%s  (fixed)", shown(value).c_str());
         ui.help(fmt::format("It shapes the motion's time, curves or joints in line {} and cannot be changed without "
@@ -55,18 +54,9 @@ void draw_constants(Ui& ui) {
                             constant.frozen->line)
                     .c_str());
       } else {
-        const float speed = static_cast<float>(std::max(std::abs(before), 0.1) * 0.005);
-        ImGui::DragScalar(("##" + constant.name).c_str(), ImGuiDataType_Double, &value, speed, nullptr, nullptr,
-                          "%.5g");
-        ui.control("constant " + constant.name,
-                   "Drag it, and the motion follows; double click to write a number. Esc goes back.");
-        const bool typing = ImGui::IsItemActive() && ImGui::GetIO().WantTextInput;
-        const bool usable = std::isfinite(value) && !ui.memory.drag_dropped;
-        if (ImGui::IsItemEdited() && !typing && usable) ui.emit(Steer{setting({{constant.name, value}})});
-        if (ImGui::IsItemDeactivatedAfterEdit() && usable) {
-          if (!s.steering) ui.emit(Steer{setting({{constant.name, value}})});
-          ui.emit(Steered{true});
-        }
+        SteeredNumber number{.name = "constant " + constant.name, .help = "A constant of the scene.", .value = value};
+        number.speed = std::max(std::abs(value), 0.1) * 0.005;
+        draw_steered(ui, number, [&](double to) { return setting({{constant.name, to}}); });
       }
       ui.notices(Notice::Place::constants, constant.name);
     }

@@ -195,8 +195,18 @@ void go(Ui& ui, const Leaving& leaving) {
   }
 }
 
+// What was to come after saving comes when that is done, and not where it could not be done: the status line says why.
+void go_on_after_saving(Ui& ui) {
+  const auto& leaving = ui.memory.leaving;
+  if (!leaving || leaving->stage != Leaving::Stage::saving || !ui.state.saving.empty()) return;
+  if (unsaved(ui.state))
+    ui.memory.leaving.reset();
+  else
+    go(ui, Leaving(*leaving));
+}
+
 void draw_guard(Ui& ui) {
-  if (!ui.memory.leaving) return;
+  if (!ui.memory.leaving || ui.memory.leaving->stage != Leaving::Stage::asking) return;
   if (!ImGui::IsPopupOpen("Unsaved changes")) ImGui::OpenPopup("Unsaved changes");
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
@@ -207,14 +217,14 @@ void draw_guard(Ui& ui) {
   if (ImGui::Button("Save", {ui.scaled(110), 0})) {
     if (ui.state.file.empty()) {
       ui.memory.files.dialog = FilesMemory::Dialog::save;
-      ui.memory.leaving.reset();
+      ui.memory.leaving->stage = Leaving::Stage::naming;
     } else {
       ui.emit(Save{});
-      go(ui, next);
+      ui.memory.leaving->stage = Leaving::Stage::saving;
     }
     ImGui::CloseCurrentPopup();
   }
-  ui.control("guard save", "Save first.");
+  ui.control("guard save", "Save first, then go on.");
   ImGui::SameLine();
   const bool quits = next.to == Leaving::To::quit;
   if (ImGui::Button(quits ? "Discard and quit" : "Discard them", {ui.scaled(130), 0})) {
@@ -253,6 +263,7 @@ void leave_for(Ui& ui, Leaving leaving) {
 }
 
 void draw_dialogs(Ui& ui) {
+  go_on_after_saving(ui);
   draw_welcome(ui);
   draw_shortcuts(ui);
   draw_files(ui);

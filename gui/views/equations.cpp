@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gui/views/steered.h"
 #include "gui/words.h"
 
 namespace spacetime::gui {
@@ -109,19 +110,28 @@ void draw_menu(Ui& ui, const Equation& equation) {
   ImGui::EndPopup();
 }
 
+Steering weighing(const std::string& name, double weight) {
+  const Words words = weight_words(name, weight);
+  Steering out{.line = words.line, .actions = {words.action}};
+  out.weights = {{name, weight}};
+  return out;
+}
+
 void draw_weight(Ui& ui, const Equation& equation) {
   if (!equation.weight) {
     ImGui::TextDisabled("hard");
     ui.help("It must hold. Give it a weight from its menu (right button) to make it soft.");
     return;
   }
-  double weight = *equation.weight;
-  ImGui::SetNextItemWidth(-1);
+  SteeredNumber number{.name = "weight " + equation.name, .help = "How much it counts in the objective."};
+  number.value = *equation.weight;
+  if (ui.state.steering)
+    for (const auto& [name, weight] : ui.state.steering->weights)
+      if (name == equation.name) number.value = weight;
+  number.most = std::numeric_limits<double>::max();
+  number.speed = 0.01 * (number.value > 0 ? number.value : 0.1);
   if (!equation.named) ImGui::BeginDisabled();
-  ImGui::InputDouble(("##weight " + equation.name).c_str(), &weight, 0, 0, "%.4g");
-  if (ImGui::IsItemDeactivatedAfterEdit() && weight != *equation.weight && std::isfinite(weight))
-    ui.act(weight_words(equation.name, weight).line, place, equation.name);
-  ui.control("weight " + equation.name, "How much it counts in the objective.");
+  draw_steered(ui, number, [&](double to) { return weighing(equation.name, to); });
   if (!equation.named) ImGui::EndDisabled();
 }
 
@@ -166,12 +176,16 @@ void draw_equations(Ui& ui) {
   if (!has_problem(ui)) return;
   const Question& question = ui.question();
   for (const bool objective : {false, true}) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(10), ui.scaled(2)});
+    ImGui::AlignTextToFramePadding();
     ImGui::PushFont(ui.memory.fonts.strong);
     ImGui::TextUnformatted(objective ? "What is best" : "What must hold");
     ImGui::PopFont();
     const std::string fresh = objective ? "new objective" : "new constraint";
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - ui.scaled(44));
-    if (ImGui::SmallButton(("+ Add##" + fresh).c_str())) ui.emit(Draft{fresh, std::string()});
+    const float room = ImGui::CalcTextSize("+ Add").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - room);
+    if (ImGui::Button(("+ Add##" + fresh).c_str())) ui.emit(Draft{fresh, std::string()});
+    ImGui::PopStyleVar();
     ui.control("add " + fresh, objective ? "Add a term of the objective." : "Add a constraint.");
     if (ImGui::BeginTable(objective ? "objective" : "constraints", 4, ImGuiTableFlags_RowBg)) {
       ImGui::TableSetupColumn("on", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFrameHeight());

@@ -156,6 +156,9 @@ void draw_files(Ui& ui) {
       leave_for(ui, {Leaving::To::file, chosen});
     else
       ui.emit(Save{chosen});
+    if (!open && ui.memory.leaving) ui.memory.leaving->stage = Leaving::Stage::saving;
+  } else if (cancelled && !open) {
+    ui.memory.leaving.reset();
   }
   if (cancelled || (possible && (pressed || entered))) {
     m.dialog = FilesMemory::Dialog::none;

@@ -15,6 +15,7 @@ std::vector<Event> draw_frame(const State& state, Memory& memory, SceneView& sce
   }
   std::vector<Event> events;
   Ui ui{state, memory, events};
+  ImGui::GetIO().ConfigDragClickToInputText = true;
   ImGui::NewFrame();
   draw_window(ui, scene);
   ImGui::Render();

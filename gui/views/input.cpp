@@ -8,13 +8,16 @@
 namespace spacetime::gui {
 
 void Input::button(int which, bool down, const ImVec2& at) {
-  if (which >= 0 && which < static_cast<int>(buttons_.size())) changes_.push_back({false, which, down, at, 0});
+  if (which >= 0 && which < static_cast<int>(buttons_.size()))
+    changes_.push_back({Change::Kind::button, which, down, at, 0});
 }
 
 void Input::key(int glfw_key, bool down, int glfw_modifiers) {
   if (glfw_key >= 0 && glfw_key < static_cast<int>(keys_.size()))
-    changes_.push_back({true, glfw_key, down, {}, glfw_modifiers});
+    changes_.push_back({Change::Kind::key, glfw_key, down, {}, glfw_modifiers});
 }
+
+void Input::character(unsigned code) { changes_.push_back({Change::Kind::character, static_cast<int>(code)}); }
 
 void Input::give(ImGuiIO& io, const ImVec2& mouse) {
   std::vector<Change> given;
@@ -22,13 +25,19 @@ void Input::give(ImGuiIO& io, const ImVec2& mouse) {
   std::optional<ImVec2> at;
   for (; !changes_.empty(); changes_.pop_front()) {
     const Change& next = changes_.front();
-    const auto same = [&](const Change& one) { return one.key == next.key && one.which == next.which; };
-    if (std::ranges::any_of(given, same)) break;
-    if (!next.key && at && (at->x != next.at.x || at->y != next.at.y)) break;
-    if (!next.key) at = next.at;
-    if (next.key && next.down) modifiers |= next.modifiers;
-    (next.key ? keys_[static_cast<std::size_t>(next.which)] : buttons_[static_cast<std::size_t>(next.which)]) =
-        next.down;
+    const bool key = next.kind == Change::Kind::key, button = next.kind == Change::Kind::button;
+    // ImGui takes what is typed in a frame before the keys that were pressed in it.
+    const auto stands_before = [&](const Change& one) {
+      if (!key && !button) return one.kind == Change::Kind::key && one.down;
+      return one.kind == next.kind && one.which == next.which;
+    };
+    if (std::ranges::any_of(given, stands_before)) break;
+    if (button && at && (at->x != next.at.x || at->y != next.at.y)) break;
+    if (button) at = next.at;
+    if (key && next.down) modifiers |= next.modifiers;
+    if (key) keys_[static_cast<std::size_t>(next.which)] = next.down;
+    if (button) buttons_[static_cast<std::size_t>(next.which)] = next.down;
+    if (!key && !button) io.AddInputCharacter(static_cast<unsigned>(next.which));
     given.push_back(next);
   }
   io.MousePos = at.value_or(mouse);

@@ -1,6 +1,7 @@
 // Buttons and keys on their way to ImGui, which is told once a frame what is down.  What goes down and up again within
 // one frame, as it does when frames are slow, would never have been down; so each change has a frame of its own, and a
-// button goes down where the mouse was then.
+// button goes down where the mouse was then.  What is typed keeps its place among them: a letter behind Ctrl+A would be
+// thrown away where Ctrl were still down.
 #pragma once
 
 #include <imgui.h>
@@ -15,6 +16,7 @@ class Input {
  public:
   void button(int which, bool down, const ImVec2& at);
   void key(int glfw_key, bool down, int glfw_modifiers);
+  void character(unsigned code);  // that was typed, in its place among the keys
 
   // Before ImGui's NewFrame: what is down in this frame, and where the mouse is; `mouse` is where it is by now.
   void give(ImGuiIO& io, const ImVec2& mouse);
@@ -22,8 +24,8 @@ class Input {
 
  private:
   struct Change {
-    bool key = false;  // or a button
-    int which = 0;
+    enum class Kind { button, key, character } kind = Kind::button;
+    int which = 0;  // of a character its code
     bool down = false;
     ImVec2 at{};
     int modifiers = 0;

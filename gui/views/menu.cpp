@@ -2,8 +2,10 @@
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -36,6 +38,25 @@ bool can_run(const Ui& ui) { return ui.state.scene && ui.state.scene->problem &&
 // Whether a ghost stands at the time shown.
 bool is_pinned(const State& s) {
   return std::ranges::any_of(s.pins, [&](double pin) { return std::abs(pin - s.playback.time) < same_time; });
+}
+
+// Where nothing changes in the picture it is said why.
+void show_ghosts(Ui& ui, bool on) {
+  ui.memory.scene.ghosts = on;
+  ui.emit(Remark{!on                         ? "The ghosts along the motion are put away."
+                 : !ui.state.curves          ? "Ghosts along the motion are shown once there is one."
+                 : ui.state.playback.playing ? "Ghosts along the motion are shown when it does not play."
+                                             : "Five ghosts along the motion are shown."});
+}
+
+// What was done since an entry of the log, in a line or two.
+std::string acts_behind(const State& s, std::optional<int> entry) {
+  constexpr std::size_t most = 160;
+  std::string text;
+  for (int i = entry.value_or(s.present) + 1; i <= s.present; ++i)
+    text += (text.empty() ? "" : "; ") + in_one_line(s.log[static_cast<std::size_t>(i)].text);
+  if (text.empty()) return "what is being done";
+  return text.size() <= most ? text : text.substr(0, most) + "...";
 }
 
 bool begin_menu(Ui& ui, const char* name, const char* help, bool enabled = true) {
@@ -141,7 +162,8 @@ void draw_view_menu(Ui& ui) {
   if (entry(ui, {"Pin a ghost here", "G", s.curves != nullptr, is_pinned(s)},
             "Show the pose at this time, pale, whatever the time; its mark in the ruler takes it away."))
     ui.emit(Pin{s.playback.time, !is_pinned(s)});
-  toggle("Ghosts along the motion", "Shift+G", m.ghosts, "Five poses from the start to the end, pale.");
+  if (entry(ui, {"Ghosts along the motion", "Shift+G", true, m.ghosts}, "Five poses from the start to the end, pale."))
+    show_ghosts(ui, !m.ghosts);
   toggle("Trails", "T", m.trails, "The ways of hands, and of the points chosen in the tab Freedom.");
   toggle("Forces", nullptr, m.forces, "Torques and forces of the joints, as arrows.");
   toggle("Marks of constraints", nullptr, m.marks, "Where constraints hold and where they do not.");
@@ -177,6 +199,27 @@ void draw_menu(Ui& ui) {
   ImGui::TextDisabled("%s", title.c_str());
   ui.here("title");
   ImGui::EndMenuBar();
+}
+
+// How fast runs go, so that they can be watched.
+void draw_pace(Ui& ui) {
+  static constexpr std::array<std::pair<double, const char*>, 4> paces{
+      {{0, "Full speed"}, {30, "30 a second"}, {8, "8 a second"}, {2, "2 a second"}}};
+  const auto now = std::ranges::find(paces, ui.state.pace, [](const auto& pace) { return pace.first; });
+  ImGui::SetNextItemWidth(ui.scaled(112));
+  const bool open = ImGui::BeginCombo("##pace", now == paces.end() ? "" : now->second);
+  if (!open)
+    ui.control("pace",
+               "How many iterations a second Run and Continue make at most: slowly enough the motion can be watched as "
+               "it is found, and paused. What is found is the same. Takes effect with the next Run or Continue.");
+  if (open) {
+    for (const auto& [pace, name] : paces) {
+      if (ImGui::Selectable(name, pace == ui.state.pace)) ui.emit(SetPace{pace});
+      ui.control(std::string("pace ") + name, "At most so many iterations a second.");
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine(0, ui.scaled(6));
 }
 
 void draw_toolbar(Ui& ui) {
@@ -215,14 +258,20 @@ void draw_toolbar(Ui& ui) {
   if (button("Stop", "stop", (s.running && !s.stopping) || can_continue(s), stopping)) ui.emit(Stop{});
   if (button("Step", "step", can_run(ui), "One iteration (F10)"))
     ui.act(iterate_words(1).line, Notice::Place::optimisation);
+  draw_pace(ui);
   ImGui::SameLine(0, ui.scaled(18));
   if (button("Undo", "undo", can_undo(s), "Undo (Ctrl+Z)")) ui.emit(Undo{});
   if (button("Redo", "redo", can_redo(s), "Redo (Ctrl+Y)")) ui.emit(Redo{});
   ImGui::SameLine(0, ui.scaled(18));
   if (s.ghost) {
-    if (button("Accept", "accept", true, "Keep this motion and put the ghost of the one before away"))
+    if (button("Keep", "keep", true,
+               "Keep the new motion: the pale one, which was before it, is put away. Nothing else changes, and Undo "
+               "still leads back."))
       ui.emit(DropGhost{});
-    if (button("Go back", "go back", can_undo(s), "Return to the motion before the edit")) ui.emit(Undo{});
+    const auto back = entry_of_ghost(s);
+    const std::string help =
+        "Back to the pale motion, which was before: " + acts_behind(s, back) + ". Redo brings the new one again.";
+    if (button("Go back", "go back", back.has_value(), help.c_str())) ui.emit(GoTo{*back});
   }
   if (s.pose) {
     if (button("Key", "key pose", true, "Pull the motion through this pose (K): a starting guess, which Run may move",
@@ -282,9 +331,15 @@ void draw_status(Ui& ui) {
 void take_keys(Ui& ui) {
   const ImGuiIO& io = ImGui::GetIO();
   const State& s = ui.state;
-  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
   if (!ImGui::IsAnyMouseDown()) ui.memory.drag_dropped = false;
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
+  if (ImGui::GetTopMostPopupModal()) return;
+  // A menu gives way to whatever a key asks for.
+  const bool in_menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  const auto pressed = [in_menu](int key) {
+    const bool is = ImGui::IsKeyPressed(key, false);
+    if (is && in_menu) ImGui::ClosePopupToLevel(0, true);
+    return is;
+  };
   if (pressed(GLFW_KEY_F1)) ui.memory.shortcuts = true;
   if (pressed(GLFW_KEY_F5)) {
     if (s.running)
@@ -309,7 +364,7 @@ void take_keys(Ui& ui) {
     return;
   }
   if (io.WantTextInput) return;
-  if (pressed(GLFW_KEY_ESCAPE)) {
+  if (pressed(GLFW_KEY_ESCAPE) && !in_menu) {
     if (s.steering) {
       ui.emit(Steered{false});
       ui.memory.drag_dropped = true;
@@ -322,8 +377,8 @@ void take_keys(Ui& ui) {
   if (pressed(GLFW_KEY_K) && s.pose) ui.emit(KeyPose{});
   if (pressed(GLFW_KEY_G)) {
     if (io.KeyShift)
-      ui.memory.scene.ghosts = !ui.memory.scene.ghosts;
-    else if (s.curves)
+      show_ghosts(ui, !ui.memory.scene.ghosts);
+    else
       ui.emit(Pin{s.playback.time, !is_pinned(s)});
   }
   if (pressed(GLFW_KEY_T)) ui.memory.scene.trails = !ui.memory.scene.trails;

@@ -1,5 +1,7 @@
 #include "gui/views/optimisation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,11 +22,14 @@ void draw_choices(Ui& ui) {
   if (!ImGui::BeginTable("choices", 2)) return;
   ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, ui.scaled(84));
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+  const auto beside = [&](const char* name) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", name);
+  };
   const auto row = [&](const char* name) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", name);
+    beside(name);
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1);
   };
@@ -33,12 +38,16 @@ void draw_choices(Ui& ui) {
   ui.control("method",
              "How an iteration is made. Newton converges in the fewest; the papers' own methods are there to compare.");
   row("Tolerance");
+  ImGui::SetNextItemWidth(ui.scaled(78));
   ImGui::InputDouble("##tolerance", &m.tolerance, 0, 0, "%.0e");
   m.tolerance = std::clamp(m.tolerance, 1e-15, 1.0);
   ui.control("tolerance",
              "Converged: every hard constraint holds to this much in its own units, and the gradient of the Lagrangian "
              "vanishes to it.");
-  row("Starts");
+  ImGui::SameLine();
+  beside("Starts");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
   ImGui::InputInt("##starts", &m.starts, 0);
   m.starts = std::clamp(m.starts, 1, 1000);
   ui.control("starts", "Solve from so many shaken starts and keep the best motion.");
@@ -77,10 +86,11 @@ std::vector<Course> objective(const Ui& ui, const std::vector<IterationRecord>& 
   return out;
 }
 
+constexpr float least_chart = 70, most_chart = 220;  // pixels at scale 1
 constexpr double powers_worth = 30;  // numbers that lie further apart than this are drawn by their powers of ten
 constexpr double most_powers = 9;
 
-// What the vertical scale has to span; whether by powers of ten.
+// What the vertical scale has to span; whether by powers of ten.  What does not change has room about it.
 bool fit(PlotFrame& frame, const std::vector<Course>& courses, bool powers) {
   double low = std::numeric_limits<double>::infinity(), high = -low, least = low;
   for (const Course& course : courses) {
@@ -98,25 +108,40 @@ bool fit(PlotFrame& frame, const std::vector<Course>& courses, bool powers) {
     frame.bottom = std::min(frame.top - 1, std::max(frame.top - most_powers, std::floor(std::log10(least) - 0.1)));
     return true;
   }
-  const double room = std::max(0.08 * (high - low), 1e-9 * std::max(1.0, std::abs(high)));
+  const double least_room = high == 0 ? 1 : 0.02 * std::abs(high);
+  const double room = std::max(0.08 * (high - low), least_room);
   frame.bottom = low - room;
   frame.top = high + room;
   return false;
 }
 
-void draw(ImDrawList& list, const PlotFrame& frame, const Course& course, const std::vector<IterationRecord>& record,
-          bool powers, float scale) {
-  list.PathClear();
-  for (std::size_t i = 0; i < record.size(); ++i) {
+// The line through a measure, within the frame, with a dot for each iteration where there is room for dots: one alone
+// has no line.  By powers of ten nothing stands on the lower edge.
+void draw(Ui& ui, const PlotFrame& frame, const Course& course, bool powers) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Record& record = ui.state.record;
+  const float scale = ui.memory.scale;
+  std::vector<ImVec2> points;
+  for (std::size_t i = 0; i < record.iterations.size(); ++i) {
     const double v = course.values[i];
     if (!std::isfinite(v)) continue;
-    list.PathLineTo({frame.x(record[i].iteration), frame.y(powers ? std::log10(std::max(v, 1e-20)) : v)});
+    const double height = !powers ? v : v > 0 ? std::log10(v) : frame.bottom;
+    points.push_back({frame.x(record.iterations[i].iteration - record.began()), frame.y(height)});
   }
-  list.PathStroke(packed(course.name.colour), 0, course.width * scale);
+  const ImU32 colour = packed(course.name.colour);
+  list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
+  list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, course.width * scale);
+  list.PopClipRect();
+  constexpr float room_for_dots = 7;  // pixels at scale 1, from one to the next
+  if (frame.size.x < room_for_dots * scale * static_cast<float>(record.made())) return;
+  for (const ImVec2& point : points)
+    if (point.y <= frame.corner.y + frame.size.y + 1) list.AddCircleFilled(point, 2.2F * scale, colour);
+  if (!points.empty()) ui.memory.places["newest iteration"] = {points.back().x - 1, points.back().y - 1, 2, 2};
 }
 
 void draw_by_iteration(Ui& ui) {
-  const auto& record = ui.state.record.iterations;
+  const Record& run = ui.state.record;
+  const auto& record = run.iterations;
   bool& by_objective = ui.memory.objective_by_iteration;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.scaled(2), 0});
   if (ImGui::RadioButton("Convergence", !by_objective)) by_objective = false;
@@ -129,27 +154,32 @@ void draw_by_iteration(Ui& ui) {
 
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui.scaled(120);
+  // What room is left, with the names of two rows below it.
+  const float below_all = 2 * (ImGui::GetFontSize() + 2) + ImGui::GetStyle().ItemSpacing.y;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float height =
+      std::clamp(ImGui::GetContentRegionAvail().y - below_all, ui.scaled(least_chart), ui.scaled(most_chart));
   const float margin = ui.scaled(44), below = ImGui::GetFontSize() + 6;
   ImGui::Dummy({width, height});
   ui.control("by iteration",
-             "A solve begins anew, unless it goes on where the last one ended. Thin lines: edits while it ran.");
+             "Iterations of this run, from its start; one that goes on where the last ended continues it. Thin lines: "
+             "edits while it ran.");
   PlotFrame frame{
       {at.x + margin, at.y + 4}, {width - margin - 6, height - below - 4}, 0, 10, by_objective ? 0.0 : -9, 1};
   if (!record.empty()) {
-    frame.left = record.front().iteration;
-    frame.right = std::max(frame.left + 10.0, static_cast<double>(record.back().iteration));
+    const double last = std::max(1, run.made()), room = 0.02 * last;
+    frame.left = -room;
+    frame.right = last + room;
   }
   std::vector<Course> courses;
   if (!record.empty()) courses = by_objective ? objective(ui, record) : convergence(ui, record);
   const bool powers = fit(frame, courses, !by_objective);
-  draw_scales(list, frame, ui.colours(), powers);
-  ImGui::PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);
-  for (const int edit : ui.state.record.edits)
-    list.AddLine({frame.x(edit), frame.corner.y}, {frame.x(edit), frame.corner.y + frame.size.y},
-                 packed(ui.colours().accent, 0.6F), 1);
-  for (std::size_t i = courses.size(); i-- > 0;) draw(list, frame, courses[i], record, powers, ui.memory.scale);
-  ImGui::PopClipRect();
+  draw_scales(list, frame, ui.colours(), powers, true);
+  for (const int edit : run.edits) {
+    const float x = frame.x(edit - run.began());
+    list.AddLine({x, frame.corner.y}, {x, frame.corner.y + frame.size.y}, packed(ui.colours().accent, 0.6F), 1);
+  }
+  for (std::size_t i = courses.size(); i-- > 0;) draw(ui, frame, courses[i], powers);
   std::vector<Name> names;
   for (const Course& course : courses) names.push_back(course.name);
   const Legend legend = arrange(names, ImGui::GetCursorScreenPos(), width, 2, ui.scaled(14));
@@ -176,6 +206,66 @@ void draw_terms(Ui& ui) {
   for (const auto& [name, value] : motion->terms) row("  " + name, value, false);
   row("Largest violation", motion->violation, true);
   ImGui::EndTable();
+  ui.here("terms");
+}
+
+// How it stands, in a few words, and what there is to say of it.
+struct Standing {
+  std::string words, text;
+  ImVec4 colour;
+};
+
+std::string iterations(int number) { return fmt::format("{} iteration{}", number, number == 1 ? "" : "s"); }
+
+// Of the last run, while the motion is what that has reached: its number in the session, and its own iterations.
+std::string told_of_run(const State& s, const std::string& what) {
+  const Record& run = s.record;
+  const int all = s.motion->iterations;
+  if (run.run == 0 || run.began() + run.made() != all) return fmt::format("{} after {}", what, iterations(all));
+  const std::string before = run.began() == 0 ? "" : fmt::format(" ({} in all)", all);
+  return fmt::format("Run {}: {} after {}{}", run.run, what, iterations(run.made()), before);
+}
+
+Standing standing_of(const Ui& ui) {
+  const State& s = ui.state;
+  const Colours& c = ui.colours();
+  if (s.steering) return {"Following the drag", "", c.accent};
+  if (s.running) {
+    std::string words = fmt::format("Run {}: {}", s.record.run, s.stopping ? "stopping" : "solving");
+    if (!s.record.iterations.empty())
+      words +=
+          fmt::format(", iteration {}, objective {}", s.record.made(), shown(s.record.iterations.back().objective));
+    return {words, "", c.accent};
+  }
+  if (!s.motion || s.motion->iterations == 0) return {"Not solved yet: press Run.", "", c.faint};
+  const Motion& motion = *s.motion;
+  if (can_continue(s)) return {told_of_run(s, "paused"), "Continue goes on: " + s.paused->line, c.warning};
+  // An edit that takes nothing of it away leaves a converged motion converged.
+  const bool edited = s.present >= 0 && !s.log[static_cast<std::size_t>(s.present)].iterated;
+  if (edited && motion.status == Status::stopped) return {"Edited: press Run", motion.message, c.warning};
+  const ImVec4& colour = motion.status == Status::converged ? c.good
+                         : motion.status == Status::stopped ? c.warning
+                                                            : c.bad;
+  return {told_of_run(s, std::string(name_of(motion.status))), motion.message, colour};
+}
+
+// However long it is, the chart and the table below stay where they are.
+void draw_standing(Ui& ui) {
+  const Standing standing = standing_of(ui);
+  ImGui::PushStyleColor(ImGuiCol_Text, standing.colour);
+  ImGui::TextWrapped("%s", standing.words.c_str());
+  ImGui::PopStyleColor();
+  ui.memory.standing = standing.words;
+  float& height = ui.memory.outcome_height;
+  const float most = 4.3F * ImGui::GetTextLineHeight();
+  ImGui::BeginChild("outcome", {0, std::clamp(height, 1.0F, most)});
+  ui.notices(Notice::Place::optimisation);
+  if (!standing.text.empty()) {
+    ImGui::TextWrapped("%s", standing.text.c_str());
+    ui.here("outcome");
+  }
+  height = ImGui::GetCursorPosY();
+  ImGui::EndChild();
 }
 
 }  // namespace
@@ -190,35 +280,10 @@ std::string solve_line(const Memory& m) {
 }
 
 void draw_optimisation(Ui& ui) {
-  const State& s = ui.state;
   draw_choices(ui);
-  ui.notices(Notice::Place::optimisation);
-  if (s.steering) {
-    ImGui::TextColored(ui.colours().accent, "Following the drag");
-  } else if (s.running) {
-    ImGui::TextColored(ui.colours().accent, s.stopping ? "Stopping" : "Solving");
-    if (!s.record.iterations.empty()) {
-      const IterationRecord& newest = s.record.iterations.back();
-      ImGui::SameLine();
-      ImGui::TextDisabled("iteration %d, objective %s", newest.iteration, shown(newest.objective).c_str());
-      ui.here("iterations");
-    }
-  } else if (s.motion && s.motion->iterations > 0) {
-    const Status status = s.motion->status;
-    const ImVec4& colour = status == Status::converged ? ui.colours().good
-                           : status == Status::stopped ? ui.colours().warning
-                                                       : ui.colours().bad;
-    ImGui::PushStyleColor(ImGuiCol_Text, colour);
-    ImGui::TextWrapped("%s after %d iteration%s", std::string(name_of(status)).c_str(), s.motion->iterations,
-                       s.motion->iterations == 1 ? "" : "s");
-    ImGui::PopStyleColor();
-    ImGui::TextWrapped("%s", s.motion->message.c_str());
-    ui.here("outcome");
-  } else {
-    ImGui::TextDisabled("Not solved yet: press Run.");
-  }
-  draw_by_iteration(ui);
+  draw_standing(ui);
   draw_terms(ui);
+  draw_by_iteration(ui);
 }
 
 }  // namespace spacetime::gui

@@ -25,10 +25,11 @@ double round_step(double span, double parts) {
   return 10 * power;
 }
 
-void draw_scales(ImDrawList& list, const PlotFrame& f, const Colours& colours, bool powers_of_ten) {
+void draw_scales(ImDrawList& list, const PlotFrame& f, const Colours& colours, bool powers_of_ten, bool counted) {
   const ImU32 line = packed(colours.line, 0.6F), strong = packed(colours.line), text = packed(colours.faint);
   const float height = ImGui::GetFontSize();
-  const double across = round_step(f.right - f.left, std::max(2.0F, f.size.x / (6 * height)));
+  double across = round_step(f.right - f.left, std::max(2.0F, f.size.x / (6 * height)));
+  if (counted) across = std::max(1.0, std::ceil(across));
   for (double v = std::ceil(f.left / across) * across; v <= f.right + 1e-9 * across; v += across) {
     const float x = f.x(v);
     list.AddLine({x, f.corner.y}, {x, f.corner.y + f.size.y}, line);

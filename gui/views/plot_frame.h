@@ -23,6 +23,8 @@ struct PlotFrame {
 double round_step(double span, double parts);
 
 // Lines and numbers of both scales.  The numbers of the vertical one stand left of the area, of the other one below it.
-void draw_scales(ImDrawList& list, const PlotFrame& frame, const Colours& colours, bool powers_of_ten = false);
+// `counted`: the horizontal one has whole numbers alone.
+void draw_scales(ImDrawList& list, const PlotFrame& frame, const Colours& colours, bool powers_of_ten = false,
+                 bool counted = false);
 
 }  // namespace spacetime::gui

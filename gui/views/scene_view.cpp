@@ -87,6 +87,7 @@ void look(Ui& ui, const Figures& figures, const glm::vec2& size) {
   if (!s.log.empty() && m.framed_for != s.log.front().number) {
     m.framed_for = s.log.front().number;
     m.framed = false;
+    m.camera = SceneMemory().camera;  // whatever the scene before was looked at from
     if (!planar(figures.bounds(motion))) m.camera = looking(View::free, m.camera);
   }
   if (!m.framed) return frame_all(ui, figures, motion, size);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "gui/words.h"
+
 namespace spacetime::gui {
 namespace {
 
@@ -101,17 +103,22 @@ void draw_log(Ui& ui) {
   for (std::size_t i = 0; i < s.log.size(); ++i) {
     const Entry& entry = s.log[i];
     const bool future = static_cast<int>(i) > s.present, here = static_cast<int>(i) == s.present;
-    std::string line = i == 0 ? "the scene as it was opened" : entry.text;
-    std::ranges::replace(line, '\n', ' ');
+    // What came of it first; the line may be long.
+    std::string line = i == 0 ? "the scene as it was opened" : in_one_line(entry.text);
     if (i > 0 && entry.motion && entry.iterated)
-      line += fmt::format("   ({}, {})", name_of(entry.motion->status), shown(entry.motion->objective));
-    ImGui::PushStyleColor(ImGuiCol_Text, future ? ui.colours().faint : ui.colours().text);
+      line = fmt::format("{}, {}:  {}", name_of(entry.motion->status), shown(entry.motion->objective), line);
     ImGui::PushFont(i == 0 ? ui.memory.fonts.text : ui.memory.fonts.code);
-    if (ImGui::Selectable(fmt::format("{}##{}", line, i).c_str(), here) && entry.checkpoint)
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, width).y;
+    if (ImGui::Selectable(fmt::format("##entry {}", i).c_str(), here, 0, {width, height}) && entry.checkpoint)
       ui.emit(GoTo{static_cast<int>(i)});
+    ui.control(fmt::format("entry {}", i),
+               (future ? "Undone: click to redo up to here.\n" : "Click to go back to here.\n") + line);
+    ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
+                                        packed(future ? ui.colours().faint : ui.colours().text), line.c_str(), nullptr,
+                                        width);
     ImGui::PopFont();
-    ImGui::PopStyleColor();
-    ui.control(fmt::format("entry {}", i), future ? "Undone: click to redo up to here." : line);
     if (here && i + 1 == s.log.size()) ImGui::SetScrollHereY(1);
   }
   for (const std::string& line : s.script) {

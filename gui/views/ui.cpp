@@ -9,7 +9,29 @@
 namespace spacetime::gui {
 namespace {
 
-constexpr float help_delay = 0.6F;  // s
+constexpr double help_delay = 0.6;  // s
+
+// Below what it is of, or above where there is no room: never over it.  Beside a menu, whose next entries are below;
+// near the mouse where the control is too large to stand beside.
+Rect place_of_help(const ImVec2& low, const ImVec2& high, const char* text, float wrap) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const ImVec2 extent = ImGui::CalcTextSize(text, nullptr, false, wrap), room = ImGui::GetIO().DisplaySize;
+  const float width = extent.x + 2 * style.WindowPadding.x, height = extent.y + 2 * style.WindowPadding.y;
+  const float gap = 0.4F * ImGui::GetFontSize();
+  ImVec2 at{low.x, high.y + gap};
+  float top = low.y;  // of what is not to be covered
+  const ImGuiWindow& window = *ImGui::GetCurrentWindow();
+  if ((window.Flags & ImGuiWindowFlags_Popup) != 0 && (window.Flags & ImGuiWindowFlags_Modal) == 0) {
+    at = {window.Pos.x + window.Size.x + gap, low.y};
+    if (at.x + width > room.x) at.x = window.Pos.x - gap - width;
+  } else if (high.y - low.y > 8 * ImGui::GetFontSize()) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    at = {mouse.x + gap, mouse.y + 1.2F * ImGui::GetFontSize()};
+    top = mouse.y;
+  }
+  if (at.y + height > room.y) at.y = top - gap - height;
+  return {std::clamp(at.x, 0.0F, std::max(0.0F, room.x - width)), std::max(0.0F, at.y), width, height};
+}
 
 }  // namespace
 
@@ -65,15 +87,23 @@ void Ui::help(const char* text) const {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   // One at a time: where marks stand on something, theirs.
   if (memory.helping) return;
-  // Not at once: what it covers may be where the mouse is going.
-  const ImGuiContext& context = *ImGui::GetCurrentContext();
-  if (context.HoveredId != 0 && context.HoveredIdTimer < help_delay) return;
   memory.helping = true;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  HelpMemory& m = memory.help;
+  const int frame = ImGui::GetFrameCount();
+  const bool stays = frame <= m.frame + 1 && low.x == m.corner.x && low.y == m.corner.y;
+  if (!stays) m = {.corner = low, .since = ImGui::GetTime()};
+  m.frame = frame;
+  m.used = m.used || ImGui::IsAnyMouseDown();
+  if (m.used || ImGui::GetTime() - m.since < help_delay) return;
+  const Rect place = place_of_help(low, high, text, scaled(340));
+  ImGui::SetNextWindowPos({place.x, place.y});
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(scaled(340));
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + scaled(340));
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+  memory.places["help"] = place;
 }
 
 bool Ui::notices(Notice::Place place, const std::string& about) {

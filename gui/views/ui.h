@@ -58,6 +58,14 @@ struct SelectionToolsMemory {
   int seed = 1;
 };
 
+// The control that the mouse is over, for its help.
+struct HelpMemory {
+  ImVec2 corner{-1, -1};  // of it
+  double since = 0;       // s, by ImGui's clock
+  int frame = -1;         // in which it was last so
+  bool used = false;      // it was pressed: there is no help until the mouse leaves it
+};
+
 struct SpanMemory {
   double start = 0, end = 0;  // s, of the scene
   double from = 0, to = 0;    // s, of it shown by the timeline and the curves
@@ -75,10 +83,15 @@ struct FilesMemory {
   bool as_seen = true;  // films: by the window's camera
 };
 
-// What comes after the scene that is open.
+// What comes after the scene that is open, and how far it is decided what becomes of that.
 struct Leaving {
   enum class To { quit, file, example, fresh } to = To::quit;
   std::string file{};
+  enum class Stage {
+    asking,
+    naming,  // the file that it is to be saved in
+    saving,  // goes on when that is done
+  } stage = Stage::asking;
 };
 
 inline constexpr int scene_tab = 1;  // of the tools: the scene's text
@@ -101,6 +114,7 @@ struct Memory {
   std::map<std::string, Rect> places;  // of this frame's controls, by name: for help, and for whoever drives the window
   SceneMemory scene;
   CurvesMemory curves;
+  HelpMemory help;
   BarMemory bar;
   KeyMemory key;
   SpanMemory span;
@@ -120,6 +134,8 @@ struct Memory {
   int scroll_to_line = 0;               // in the scene text
   bool objective_by_iteration = false;  // rather than how far it is from converged
   int method = 0;
+  std::string standing;      // what the panel says of the run in a few words
+  float outcome_height = 0;  // pixels, of the rest
   double tolerance = 1e-8;
   int starts = 1;
 };
@@ -144,7 +160,7 @@ struct Ui {
   void control(const std::string& name, const std::string& text);
   // Remembers where the last item is, so that it can be found by name: what is only looked at.
   void here(const std::string& name);
-  // Help that appears over the last item.
+  // Help that appears beside the last item, when the mouse has stayed on it and not pressed it.
   void help(const char* text) const;
   // The notices of a place, about something or about nothing in particular.
   // Whether one of them has come since the last frame.

@@ -30,7 +30,9 @@ TEST(Update, WhatIsToldOfFilesAndDaemonsOutlivesActs) {
   table.feed(Save{});
   EXPECT_TRUE(std::get<WriteFile>(table.others.back()).overwrite);
   table.feed(FileWritten{"/a.scene", text_of(table.state)});
-  EXPECT_EQ(table.state.notices.size(), 1U);  // the daemon is lost still
+  ASSERT_EQ(table.state.notices.size(), 2U);
+  EXPECT_TRUE(table.state.notices[0].lasting);  // the daemon is lost still
+  EXPECT_EQ(table.state.notices[1].text, "a.scene is saved.");
   table.feed(Save{});
   EXPECT_FALSE(std::get<WriteFile>(table.others.back()).overwrite);
 }

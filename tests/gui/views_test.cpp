@@ -73,8 +73,8 @@ void expect_inside(Screen& screen, int width, int height) {
 
 // What is only looked at, or a place where the mouse does many things.
 // Control points tell their numbers in place of help, names of curves what a click on them does.
-constexpr std::array seen{"part ",   "control ", "place ", "mistake ", "time",      "title",
-                          "outcome", "scene",    "curves", "legend ",  "iterations"};
+constexpr std::array seen{"part ",  "control ", "place ",   "mistake ",         "time",  "title", "outcome", "scene",
+                          "curves", "legend ",  "standing", "newest iteration", "terms", "help"};
 
 void expect_help(Screen& screen) {
   for (const auto& [name, r] : screen.memory().places) {
