@@ -1,5 +1,7 @@
 #include "gui/command_render.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -20,6 +22,7 @@
 #include "gui/render/film.h"
 #include "gui/render/offscreen.h"
 #include "gui/render/pattern.h"
+#include "gui/render/place_marks.h"
 #include "gui/render/renderer.h"
 #include "gui/render/target.h"
 #include "protocol/motion_json.h"
@@ -36,7 +39,7 @@ struct Options {
   double rate = 30;
   int strip = 0;
   bool apart = false;
-  std::optional<double> at;
+  std::optional<double> at, from, to;
   std::vector<std::string> trails, curves;
 };
 
@@ -82,9 +85,14 @@ Theme theme_of(const Options& options) { return options.theme == "dark" ? Theme:
 // Everything that pictures of one motion share.
 class Studio {
  public:
-  Studio(const Figures& figures, const Motion& motion, const Options& options)
-      : size_(size_of(options.size, usual_size)), target_(size_.width, size_.height, samples_a_pixel) {
-    stand(figures.bounds(motion), options);
+  Studio(const Figures& figures, const Motion& motion, std::vector<NamedPlace> places, const Options& options)
+      : size_(size_of(options.size, usual_size)),
+        target_(size_.width, size_.height, samples_a_pixel),
+        places_(std::move(places)),
+        theme_(theme_of(options)) {
+    Box room = figures.bounds(motion);
+    for (const NamedPlace& place : places_) room.include(place.at);
+    stand(room, options);
   }
 
   // Where all of a room can be seen.
@@ -101,7 +109,9 @@ class Studio {
   Image shoot(const Picture& picture) {
     target_.bind();
     renderer_.draw(picture, camera_, size_.width, size_.height);
-    return target_.read();
+    Image image = target_.read();
+    mark(image, places_, camera_, theme_);
+    return image;
   }
 
  private:
@@ -109,6 +119,8 @@ class Studio {
   Offscreen context_;
   Renderer renderer_;
   Target target_;
+  std::vector<NamedPlace> places_;
+  Theme theme_;
   Camera camera_;
 };
 
@@ -134,7 +146,7 @@ bool play(const Figures& figures, const Motion& motion, const Options& options, 
 
 enum Exit { done = 0, interrupted = 2 };
 
-int draw(const Options& options, const Figures& figures, const Motion& motion) {
+int draw(const Options& options, const Figures& figures, const Motion& motion, const Problem* problem) {
   const Look look{theme_of(options), options.trails};
   for (const std::string& trail : look.trails) figures.way(motion, trail, std::vector{motion.start});  // is there one?
   const auto pattern = pattern_of(options.output);
@@ -159,7 +171,9 @@ int draw(const Options& options, const Figures& figures, const Motion& motion) {
                      std::to_string(motion.start) + " to " + std::to_string(motion.end) + " s");
   }
 
-  Studio studio(figures, motion, options);
+  // Side by side, places would be those of one pose.
+  Studio studio(figures, motion, problem && !options.apart ? places_in(*problem, motion) : std::vector<NamedPlace>(),
+                options);
   make_folder_of(options.output);
   if (options.apart) {
     const Picture picture = apart(figures, motion, options.strip, look);
@@ -179,7 +193,7 @@ int draw(const Options& options, const Figures& figures, const Motion& motion) {
     const auto write = [&](int k, const Image& image) { write_png(pattern->file(k), image); };
     return play(figures, motion, options, look, studio, write) ? done : interrupted;
   }
-  Film out(options.output, studio.size().width, studio.size().height, options.rate);
+  FilmFile out(options.output, studio.size().width, studio.size().height, options.rate);
   const bool whole = play(figures, motion, options, look, studio, [&](int, const Image& image) { out.add(image); });
   out.finish();
   return whole ? done : interrupted;
@@ -232,18 +246,30 @@ void check_belongs(const Problem& problem, const Motion& motion) {
   for (const Parameter& parameter : problem.parameters) require(has(motion.parameters, parameter.name), parameter.name);
 }
 
+// The motion as if it were the part that is asked for.
+void narrow(Motion& motion, const Options& options) {
+  const double from = options.from.value_or(motion.start), to = options.to.value_or(motion.end);
+  if (from < motion.start || to > motion.end || !(from < to)) {
+    throw InputError(fmt::format("there is no motion from {} to {} s: it lasts from {} to {} s", from, to, motion.start,
+                                 motion.end));
+  }
+  motion.start = from;
+  motion.end = to;
+}
+
 int run(const Options& options) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  const Motion motion = read_motion(read_text(options.motion));
+  Motion motion = read_motion(read_text(options.motion));
   const auto problem = options.problem.empty() ? std::nullopt : std::optional(read_problem(read_text(options.problem)));
   if (problem) check_belongs(*problem, motion);
+  narrow(motion, options);
   if (!options.curves.empty()) return draw_curves(options, motion, problem ? &*problem : nullptr);
   const Figures figures = problem ? Figures(*problem) : Figures(motion);
   if (figures.empty()) {
     throw InputError("there is nothing to draw: the motion has no bodies and no degrees of freedom of its own");
   }
-  return draw(options, figures, motion);
+  return draw(options, figures, motion, problem ? &*problem : nullptr);
 }
 
 }  // namespace
@@ -267,6 +293,8 @@ Command add_render(CLI::App& app) {
                                                           : "expected a number from 0 to 1000, found '" + text + "'";
       })
       ->capture_default_str();
+  command->add_option("--from", options->from, "Only from this time on (s)");
+  command->add_option("--to", options->to, "Only up to this time (s)");
   command->add_option("--size", options->size, "Of a picture, in pixels: 1280x720 unless said");
   command->add_option("--view", options->view, "From where; by default front where all moves in a plane, else free")
       ->check(CLI::IsMember({"front", "side", "top", "free"}));
@@ -294,7 +322,8 @@ Command add_render(CLI::App& app) {
           "arm''), named expressions; commas between; may be repeated for more panels")
       ->allow_extra_args(false);
   command->add_option("--problem", options->problem,
-                      "The motion's problem, a file or -: then every named expression can be drawn");
+                      "The motion's problem, a file or -: then every named expression can be drawn as a curve, and "
+                      "constants that are places (BasketX and BasketY) are marked in pictures");
   return {command, [options] { return run(*options); }};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/problem.h"
+#include "gui/event.h"
 
 namespace spacetime::gui {
 
@@ -54,13 +55,11 @@ struct JournalDrop {  // of a session that ended
   std::string journal;
   bool continued = false;  // only where what it held stands in this session's journal now
 };
-struct MakeFilm {  // frames/%04d.png, a .mp4, or one .png with so many poses
-  std::string file;
+struct MakeFilm {
+  Film film;                                  // its rate is given
   std::shared_ptr<const std::string> motion;  // a document
-  double rate = 30;                           // frames a second
-  int strip = 0;
+  std::shared_ptr<const Problem> problem;     // the motion's; null where it is not known
   bool dark = false;
-  std::string camera{};  // as `render --camera` takes it
 };
 struct StopFilm {};
 struct KeepSettings {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -52,10 +54,15 @@ struct Ask {  // the console: an expression to print, differentiate `by`, evalua
   std::string text, by{};
 };
 
-struct Film {  // of the present motion, into pictures, a film or (where `strip` is above 0) one picture of many poses
+// Of the present motion, into pictures, a film or (where `strip` is above 0) one picture of many poses.  What is left
+// out is as `render` has it, and the rate as the playback's.
+struct Film {
   std::string file;
   int strip = 0;
-  std::string camera{};  // as `render --camera` takes it; empty: where all can be seen
+  std::string camera{};                             // as `render --camera` takes it; empty: where all can be seen
+  int width = 0, height = 0;                        // pixels
+  double rate = 0;                                  // pictures a second
+  std::optional<std::pair<double, double>> span{};  // s
 };
 struct DropFilm {};  // stops making it
 

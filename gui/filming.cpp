@@ -13,6 +13,7 @@
 
 #include "common/diagnostic.h"
 #include "common/files.h"
+#include "protocol/problem_json.h"
 
 namespace spacetime::gui {
 namespace {
@@ -24,6 +25,9 @@ std::string last_line(const std::string& said) {
   const std::size_t begin = text.find_last_of("\r\n");
   return begin == std::string::npos ? text : text.substr(begin + 1);
 }
+
+std::string motion_file(const std::string& beside) { return beside + ".motion.json"; }
+std::string problem_file(const std::string& beside) { return beside + ".problem.json"; }
 
 }  // namespace
 
@@ -51,12 +55,12 @@ void Filming::perform(const MakeFilm& effect) {
     making = makings_.erase(making);
   }
   Making& making = makings_.emplace_back();
-  const std::string motion_file =
-      std::filesystem::temp_directory_path() / fmt::format("spacetime-{}-{}.motion.json", getpid(), ++made_);
-  making.thread = std::thread([this, &making, effect, motion_file] {
-    make(making, effect, motion_file);
+  const std::string beside = std::filesystem::temp_directory_path() / fmt::format("spacetime-{}-{}", getpid(), ++made_);
+  making.thread = std::thread([this, &making, effect, beside] {
+    make(making, effect, beside);
     std::error_code none;
-    std::filesystem::remove(motion_file, none);
+    std::filesystem::remove(motion_file(beside), none);
+    std::filesystem::remove(problem_file(beside), none);
     making.over = true;
   });
 }
@@ -66,23 +70,25 @@ void Filming::tell(Making& making, Filmed event) {
   if (!making.stopped) post_(std::move(event));
 }
 
-void Filming::make(Making& making, const MakeFilm& effect, const std::string& motion_file) {
+void Filming::make(Making& making, const MakeFilm& effect, const std::string& beside) {
+  const Film& film = effect.film;
   std::array<int, 2> pipe{};
   try {
-    write_text(motion_file, *effect.motion);
+    write_text(motion_file(beside), *effect.motion);
+    if (effect.problem) write_text(problem_file(beside), write(*effect.problem));
     if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw InputError("no pipes are left");
   } catch (const InputError& error) {
-    return tell(making, {effect.file, error.what(), Filmed::What::failed});
+    return tell(making, {film.file, error.what(), Filmed::What::failed});
   }
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "spacetime-gui";
-  std::vector<std::string> words{
-      self, "render", motion_file, "-o", effect.file, "--theme", effect.dark ? "dark" : "light"};
-  if (!effect.camera.empty()) words.push_back("--camera=" + effect.camera);
-  if (effect.strip > 0) {
-    words.push_back(fmt::format("--strip={}", effect.strip));
-  } else {
-    words.push_back(fmt::format("--rate={}", effect.rate));
-  }
+  std::vector<std::string> words{self,      "render",  motion_file(beside),           "-o",
+                                 film.file, "--theme", effect.dark ? "dark" : "light"};
+  if (effect.problem) words.push_back("--problem=" + problem_file(beside));
+  if (!film.camera.empty()) words.push_back("--camera=" + film.camera);
+  if (film.width > 0) words.push_back(fmt::format("--size={}x{}", film.width, film.height));
+  if (film.span) words.push_back(fmt::format("--from={}", film.span->first));
+  if (film.span) words.push_back(fmt::format("--to={}", film.span->second));
+  words.push_back(film.strip > 0 ? fmt::format("--strip={}", film.strip) : fmt::format("--rate={}", film.rate));
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -101,7 +107,7 @@ void Filming::make(Making& making, const MakeFilm& effect, const std::string& mo
   ::close(pipe[1]);
   if (child < 0) {
     ::close(pipe[0]);
-    return tell(making, {effect.file, "no process can be started", Filmed::What::failed});
+    return tell(making, {film.file, "no process can be started", Filmed::What::failed});
   }
   std::string said;
   std::array<char, 4096> block{};
@@ -111,7 +117,7 @@ void Filming::make(Making& making, const MakeFilm& effect, const std::string& mo
     if (bytes <= 0) break;
     said.append(block.data(), static_cast<std::size_t>(bytes));
     if (said.size() > block.size()) said.erase(0, said.size() - block.size());
-    tell(making, {effect.file, last_line(said), Filmed::What::progress});
+    tell(making, {film.file, last_line(said), Filmed::What::progress});
   }
   ::close(pipe[0]);
   // It ends, and its number stays its own until it has been waited for.
@@ -124,7 +130,7 @@ void Filming::make(Making& making, const MakeFilm& effect, const std::string& mo
     making.process = 0;
   }
   const bool done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  tell(making, {effect.file, last_line(said), done ? Filmed::What::done : Filmed::What::failed});
+  tell(making, {film.file, last_line(said), done ? Filmed::What::done : Filmed::What::failed});
 }
 
 }  // namespace spacetime::gui

@@ -34,7 +34,8 @@ class Filming {
     std::atomic<bool> over = false;
     std::thread thread;
   };
-  void make(Making& making, const MakeFilm& effect, const std::string& motion_file);
+  // `beside`: what the names of files for the maker begin with.
+  void make(Making& making, const MakeFilm& effect, const std::string& beside);
   void tell(Making& making, Filmed event);
 
   const std::function<void(Event)> post_;

@@ -132,8 +132,10 @@ void apply(State& state, const Film& event, Effects& effects) {
   if (state.present < 0 || !state.log[state.present].checkpoint)
     return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet."});
   state.film = {event.file, ""};
-  effects.push_back(MakeFilm{event.file, state.log[state.present].checkpoint, state.playback.rate, event.strip,
-                             state.dark, event.camera});
+  const Entry& entry = state.log[state.present];
+  MakeFilm make{event, entry.checkpoint, entry.scene->problem, state.dark};
+  if (make.film.rate <= 0) make.film.rate = state.playback.rate;
+  effects.push_back(std::move(make));
 }
 
 void apply(State& state, const DropFilm&, Effects& effects) {

@@ -47,6 +47,7 @@ std::string svg(const Drawing& drawing);
 
 // Throws InputError where the font is missing.
 Image raster(const Drawing& drawing);
+void paint(Image& image, const Drawing& drawing);  // over what is there; likewise
 
 // Round numbers (1, 2 or 5 times a power of ten apart), about `count` of them, between low and high.
 std::vector<double> ticks(double low, double high, int count);

@@ -78,7 +78,7 @@ class Font {
       bytes_ = read_text(font_file);
     } catch (const InputError&) {
       throw InputError(std::string("the font ") + font_file +
-                       " is missing: install the package fonts-dejavu-core, or write the curves as .svg");
+                       " is missing: install the package fonts-dejavu-core; curves can be written as .svg without it");
     }
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes_.data());
     if (stbtt_InitFont(&info_, data, stbtt_GetFontOffsetForIndex(data, 0)) == 0)
@@ -127,15 +127,19 @@ class Font {
 }  // namespace
 
 Image raster(const Drawing& drawing) {
-  const Font font;
   Image image(drawing.width, drawing.height);
   std::ranges::fill(image.rgba, std::uint8_t{255});
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) blend(image, x, y, drawing.background, 1);
+  paint(image, drawing);
+  return image;
+}
+
+void paint(Image& image, const Drawing& drawing) {
+  static const Font font;
   std::vector<float> cover(image.rgba.size() / 4);
   for (const auto& stroke : drawing.strokes) paint(image, stroke, cover);
   for (const auto& word : drawing.words) font.paint(image, word);
-  return image;
 }
 
 }  // namespace spacetime::gui

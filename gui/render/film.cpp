@@ -20,7 +20,7 @@ extern char** environ;
 
 namespace spacetime::gui {
 
-Film::Film(std::string file, int width, int height, double frames_per_second)
+FilmFile::FilmFile(std::string file, int width, int height, double frames_per_second)
     : file_(std::move(file)), beside_(file_ + ".part") {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   // Pictures of odd size are widened by a pixel, which the format asks for.
@@ -79,7 +79,7 @@ Film::Film(std::string file, int width, int height, double frames_per_second)
   std::signal(SIGPIPE, SIG_IGN);  // where ffmpeg gives up, writing tells
 }
 
-Film::~Film() {
+FilmFile::~FilmFile() {
   if (process_ < 0) return;
   kill(process_, SIGKILL);
   end();
@@ -87,7 +87,7 @@ Film::~Film() {
   std::filesystem::remove(beside_, ignored);
 }
 
-int Film::end() {
+int FilmFile::end() {
   close(pipe_);
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -96,7 +96,7 @@ int Film::end() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
-void Film::add(const Image& picture) {
+void FilmFile::add(const Image& picture) {
   SPACETIME_ASSERT(process_ >= 0);
   for (std::size_t done = 0; done < picture.rgba.size();) {
     const ssize_t written = write(pipe_, picture.rgba.data() + done, picture.rgba.size() - done);
@@ -106,7 +106,7 @@ void Film::add(const Image& picture) {
   }
 }
 
-void Film::finish() {
+void FilmFile::finish() {
   if (end() != 0) throw InputError("ffmpeg cannot write '" + file_ + "'; it says why above");
   std::error_code failed;
   std::filesystem::rename(beside_, file_, failed);

@@ -7,13 +7,13 @@
 
 namespace spacetime::gui {
 
-class Film {
+class FilmFile {
  public:
   // Starts ffmpeg.  Throws InputError where it is missing or the file cannot be written.
-  Film(std::string file, int width, int height, double frames_per_second);
-  ~Film();  // what is not finished is thrown away
-  Film(const Film&) = delete;
-  Film& operator=(const Film&) = delete;
+  FilmFile(std::string file, int width, int height, double frames_per_second);
+  ~FilmFile();  // what is not finished is thrown away
+  FilmFile(const FilmFile&) = delete;
+  FilmFile& operator=(const FilmFile&) = delete;
 
   void add(const Image& picture);  // of the film's size; throws InputError where ffmpeg has given up
   void finish();                   // only then is there a file; throws InputError

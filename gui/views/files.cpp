@@ -1,5 +1,6 @@
 #include "gui/views/files.h"
 
+#include <fmt/format.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -17,9 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int strip_poses = 12;
+constexpr int most_edge = 8192, most_pictures = 100000;
 
 // The folder, of which files with these endings are shown; clicked, they are named.
-void list_folder(Ui& ui, std::initializer_list<std::string_view> endings) {
+void list_folder(Ui& ui, std::initializer_list<std::string_view> endings, float height = 260) {
   FilesMemory& m = ui.memory.files;
   std::vector<std::pair<bool, std::string>> names;  // not a folder, name: folders come first
   std::error_code failed;
@@ -30,7 +32,7 @@ void list_folder(Ui& ui, std::initializer_list<std::string_view> endings) {
     names.emplace_back(!folder, name);
   }
   std::ranges::sort(names);
-  ImGui::BeginChild("files", {0, ui.scaled(260)}, true);
+  ImGui::BeginChild("files", {0, ui.scaled(height)}, true);
   if (ImGui::Selectable("../")) m.folder = fs::path(m.folder).parent_path();
   ui.control("folder above", "The folder that this one is in.");
   for (const auto& [plain, name] : names) {
@@ -67,12 +69,71 @@ bool is_there(const fs::path& file) {
   }
 }
 
+// As the window shows the motion: as large, as fast, and what the timeline shows of it.
+void begin_film(Ui& ui) {
+  FilesMemory& m = ui.memory.files;
+  const State& s = ui.state;
+  m.folder = s.file.empty() ? fs::current_path() : fs::absolute(s.file).parent_path();
+  m.name = s.file.empty() ? "film.mp4" : fs::path(s.file).stem().string() + ".mp4";
+  const auto scene = ui.memory.places.find("scene");
+  const Rect room = scene == ui.memory.places.end() ? Rect{0, 0, 1280, 720} : scene->second;
+  m.size[0] = 2 * static_cast<int>(room.width / 2);  // films have even edges
+  m.size[1] = 2 * static_cast<int>(room.height / 2);
+  m.rate = s.playback.rate;
+  const SpanMemory& span = ui.memory.span;
+  m.span[0] = span.from < span.to ? span.from : s.scene->problem->start;
+  m.span[1] = span.from < span.to ? span.to : s.scene->problem->end;
+}
+
+// Why it cannot be made as it is asked for; nothing where it can.
+std::string film_fault(const Ui& ui) {
+  const FilesMemory& m = ui.memory.files;
+  const Problem& problem = *ui.state.scene->problem;
+  const auto usable = [](int edge) { return edge >= 16 && edge <= most_edge; };
+  if (!film_kind(m.name)) return "Name it film.mp4, strip.png, or frames/%04d.png.";
+  if (!usable(m.size[0]) || !usable(m.size[1]))
+    return fmt::format("Each edge of a picture has from 16 to {} pixels.", most_edge);
+  if (!(m.span[0] >= problem.start && m.span[1] <= problem.end && m.span[0] < m.span[1]))
+    return fmt::format("The motion lasts from {:.6g} to {:.6g} s: choose a part of it.", problem.start, problem.end);
+  if (is_strip(m.name)) return "";
+  if (!(m.rate > 0 && m.rate <= 1000)) return "The rate is more than 0 and at most 1000 pictures a second.";
+  if (m.rate * (m.span[1] - m.span[0]) > most_pictures)
+    return fmt::format("These would be more than {} pictures: choose a lower rate.", most_pictures);
+  return "";
+}
+
+// Size, rate and part of the motion.
+void draw_film_choices(Ui& ui) {
+  FilesMemory& m = ui.memory.files;
+  const auto field = [&](const char* before, float width) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", before);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(ui.scaled(width));
+  };
+  field("Size", 120);
+  ImGui::InputInt2("##size", m.size);
+  ui.control("film size", "Pixels across and down; at first as large as the figure is shown here.");
+  ImGui::SameLine();
+  field("Time", 130);
+  ImGui::InputScalarN("##span", ImGuiDataType_Double, m.span, 2, nullptr, nullptr, "%.4g");
+  ui.control("film span", "From when to when, in seconds; at first what the timeline shows.");
+  if (is_strip(m.name)) return;
+  ImGui::SameLine();
+  field("Rate", 60);
+  ImGui::InputDouble("##rate", &m.rate, 0, 0, "%.4g");
+  ui.control("film rate", "Pictures a second; at first those of the timeline.");
+}
+
 void draw_film(Ui& ui) {
   FilesMemory& m = ui.memory.files;
+  if (!ui.state.scene || !ui.state.scene->problem) {  // it has gone meanwhile
+    m.dialog = FilesMemory::Dialog::none;
+    return;
+  }
   if (!ImGui::IsPopupOpen("Make a film")) {
     ImGui::OpenPopup("Make a film");
-    m.folder = ui.state.file.empty() ? fs::current_path() : fs::absolute(ui.state.file).parent_path();
-    m.name = ui.state.file.empty() ? "film.mp4" : fs::path(ui.state.file).stem().string() + ".mp4";
+    begin_film(ui);
   }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize({ui.scaled(560), 0});
@@ -80,27 +141,40 @@ void draw_film(Ui& ui) {
   ImGui::PushTextWrapPos(0);
   ImGui::TextDisabled("%s", m.folder.c_str());
   ImGui::PopTextWrapPos();
-  list_folder(ui, {".mp4", ".png"});
+  list_folder(ui, {".mp4", ".png"}, 200);
   ImGui::SetNextItemWidth(-1);
   ImGui::InputText("##film", &m.name);
   ui.control("film name",
              "film.mp4: a film; strip.png: poses in one picture; frames/%04d.png: a picture for every frame.");
   const char* kind = film_kind(m.name);
-  ImGui::TextWrapped("%s", kind ? kind : "Name it film.mp4, strip.png, or frames/%04d.png.");
+  const std::string fault = film_fault(ui);
+  draw_film_choices(ui);
   ImGui::Checkbox("From where the window looks", &m.as_seen);
   ui.control("film camera", "Otherwise from where all of the motion can be seen.");
+  if (fault.empty())
+    ImGui::TextWrapped("%s", kind);
+  else
+    ImGui::TextColored(ui.colours().bad, "%s", fault.c_str());
+  const bool possible = fault.empty();
   const fs::path file = fs::path(m.folder) / m.name;
-  if (kind && is_there(file))
+  if (possible && is_there(file))
     ImGui::TextColored(ui.colours().warning, file.string().find('%') == std::string::npos
                                                  ? "This file will be replaced."
                                                  : "Pictures of these names will be replaced.");
-  if (!kind) ImGui::BeginDisabled();
+  if (!possible) ImGui::BeginDisabled();
   const bool pressed = ImGui::Button("Make", {ui.scaled(100), 0});
   ui.control("make film", "It is made while the window goes on; the status line tells how far it is.");
-  if (!kind) ImGui::EndDisabled();
+  if (!possible) ImGui::EndDisabled();
   ImGui::SameLine();
-  if (pressed && kind)
-    ui.emit(Film{file, is_strip(m.name) ? strip_poses : 0, m.as_seen ? camera_text(ui.memory.scene.camera) : ""});
+  if (pressed && possible) {
+    Film film{.file = file, .strip = is_strip(m.name) ? strip_poses : 0};
+    if (m.as_seen) film.camera = camera_text(ui.memory.scene.camera);
+    film.width = m.size[0];
+    film.height = m.size[1];
+    film.rate = m.rate;
+    film.span = {m.span[0], m.span[1]};
+    ui.emit(std::move(film));
+  }
   const bool left = ImGui::Button("Cancel", {ui.scaled(100), 0});
   ui.control("cancel file", "Back without doing anything (Esc).");
   const bool cancelled = left || escaped();

@@ -249,7 +249,9 @@ Standing standing_of(const Ui& ui) {
   return {told_of_run(s, std::string(name_of(motion.status))), motion.message, colour};
 }
 
-// However long it is, the chart and the table below stay where they are.
+constexpr float room_below = 290;  // pixels at scale 1, that table and chart want
+
+// However long it is, the table and the chart below stay in sight.
 void draw_standing(Ui& ui) {
   const Standing standing = standing_of(ui);
   ImGui::PushStyleColor(ImGuiCol_Text, standing.colour);
@@ -257,7 +259,8 @@ void draw_standing(Ui& ui) {
   ImGui::PopStyleColor();
   ui.memory.standing = standing.words;
   float& height = ui.memory.outcome_height;
-  const float most = 4.3F * ImGui::GetTextLineHeight();
+  const float most =
+      std::max(4.3F * ImGui::GetTextLineHeight(), ImGui::GetContentRegionAvail().y - ui.scaled(room_below));
   ImGui::BeginChild("outcome", {0, std::clamp(height, 1.0F, most)});
   ui.notices(Notice::Place::optimisation);
   if (!standing.text.empty()) {

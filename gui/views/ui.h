@@ -80,7 +80,11 @@ struct KeyMemory {
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
-  bool as_seen = true;  // films: by the window's camera
+  // Films:
+  bool as_seen = true;   // by the window's camera
+  int size[2]{0, 0};     // pixels
+  double rate = 30;      // pictures a second
+  double span[2]{0, 0};  // s
 };
 
 // What comes after the scene that is open, and how far it is decided what becomes of that.

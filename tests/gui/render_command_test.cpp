@@ -79,6 +79,66 @@ TEST(Render, NumberedPicturesShowTheMotion) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 6);
 }
 
+// After half of its time the ball has slid (3 s^2 - s^3) / 2 = 0.3125 m, s being that half; the camera looks there, or
+// beside it.
+TEST(Render, TheCameraStandsWhereItIsTold) {
+  const auto middle = [](const std::string& camera) {
+    const std::string file = scratch("camera.png");
+    const Result result = render({"-o", file, "--at", "0.25", "--size", "320x180", "--camera=" + camera});
+    EXPECT_EQ(result.code, 0) << camera << result.err;
+    return middle_of_colour(read_png(file));
+  };
+  EXPECT_NEAR(middle("0.3125,0,0,0,0,3"), 160, 2);
+  EXPECT_NEAR(middle("0.3125,0,0,0,0,3,orthographic"), 160, 2);
+  const double aside = middle("0.6125,0,0,0,0,3");
+  EXPECT_LT(aside, 140);
+  EXPECT_NEAR(middle("0.0125,0,0,0,0,3"), 320 - aside, 2);
+  EXPECT_GT(middle("0.6125,0,0,180,0,3"), 180);  // from behind
+  for (const std::string wrong : {"1,2,3", "0,0,0,0,0,-1", "a,b,c,d,e,f"}) {
+    const Result result = render({"-o", "x.png", "--at", "0", "--camera=" + wrong});
+    EXPECT_EQ(result.code, 1) << wrong;
+    EXPECT_NE(result.err.find(wrong), std::string::npos) << result.err;
+  }
+}
+
+TEST(Render, APartOfTheMotionIsDrawnAlone) {
+  const fs::path folder = scratch("part");
+  const Result result =
+      render({"-o", (folder / "%d.png").string(), "--rate", "10", "--size", "64x48", "--from=0.2", "--to", "0.4"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 3);
+}
+
+// A constant that is a place is marked where the problem tells of it, as the window does.
+TEST(Render, PlacesAreMarkedWhereTheProblemIsGiven) {
+  const std::string scene =
+      "time [0, 1]\ntrajectory bspline spans 4\nconstant GoalX = 1\nconstant GoalY = 0.5\ncreature ball {\n  link body "
+      "{ prismatic X axis (1, 0, 0); mass 1 }\n}\nconstrain ball.X = GoalX at 1\nminimize integral(ball.X''^2)\n";
+  const std::string problem = scratch("place.problem.json"), moving = scratch("place.motion.json");
+  write_text(problem, test::run("spacetime-symbolic", {"compile", "-"}, scene).out);
+  write_text(moving, test::solve_scene(scene, {"-q"}).out);
+  const auto picture = [&](std::vector<std::string> more) {
+    const std::string file = scratch("place.png");
+    more.insert(more.begin(),
+                {"render", moving, "-o", file, "--at", "0", "--size", "320x180", "--camera=1,0.5,0,0,0,2"});
+    const Result result = test::run("spacetime-gui", more);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return read_png(file);
+  };
+  const Image without = picture({}), with = picture({"--problem", problem});
+  // The ring is about the middle, its inside as it was.
+  EXPECT_EQ(std::vector(with.at(160, 90), with.at(161, 90)), std::vector(without.at(160, 90), without.at(161, 90)));
+  int changed = 0;
+  for (int y = 80; y <= 100; ++y)
+    for (int x = 150; x <= 170; ++x) changed += with.at(x, y)[2] != without.at(x, y)[2] ? 1 : 0;
+  EXPECT_GT(changed, 60);
+  int beside = 0;  // its name
+  for (int y = 80; y <= 100; ++y)
+    for (int x = 176; x <= 230; ++x) beside += with.at(x, y)[2] != without.at(x, y)[2] ? 1 : 0;
+  EXPECT_GT(beside, 40);
+  EXPECT_EQ(with.at(20, 20)[2], without.at(20, 20)[2]);
+}
+
 TEST(Render, AStripHasAllPoses) {
   const std::string one = scratch("one.png"), strip = scratch("strip.png");
   ASSERT_EQ(render({"-o", one, "--at", "0.25", "--size", "320x180"}).code, 0);
@@ -168,6 +228,8 @@ TEST(Render, RefusesInSentencesThatSayWhatToDo) {
       {{"-o", "x%d.png", "--at", "0"}, "numbers many files"},
       {{"-o", "x.mp4", "--strip", "4"}, "no film"},
       {{"-o", "x.png", "--at", "7"}, "lasts from"},
+      {{"-o", "x%d.png", "--from", "0.4", "--to", "0.2"}, "no motion from 0.4 to 0.2 s"},
+      {{"-o", "x%d.png", "--to", "0.7"}, "lasts from 0 to 0.5 s"},
       {{"-o", "x.png", "--at", "0", "--apart"}, "poses of a --strip"},
       {{"-o", "x.png", "--at", "0", "--size", "12"}, "like 1280x720"},
       {{"-o", "x.png", "--at", "0", "--size", "9999999x20"}, "like 1280x720"},

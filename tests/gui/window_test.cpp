@@ -220,10 +220,23 @@ TEST(Window, MakesAStripOfTheMotion) {
   d.click("file strip.png");  // it is there: the dialog says so
   EXPECT_EQ(d.screen().memory().files.name, "strip.png");
   d.save_picture("film-dialog.png");
+  // As large as the figure is shown, and what is not possible is told of.
+  EXPECT_NEAR(d.screen().memory().files.size[0], d.place("scene").width, 2);
+  EXPECT_EQ(d.screen().memory().files.span[1], 2);
+  d.screen().memory().files.span[1] = 7;
+  d.frame(2);
+  d.save_picture("film-fault.png");
+  d.click("make film");
+  EXPECT_FALSE(d.state().film);
+  d.screen().memory().files.span[1] = 1.5;
+  d.screen().memory().files.size[0] = 400;
+  d.screen().memory().files.size[1] = 300;
+  d.frame(2);
   const auto before = fs::last_write_time(here + "/strip.png");
   d.click("make film");
   d.until([](const gui::State& s) { return !s.film; }, "the strip again");
   EXPECT_NE(fs::last_write_time(here + "/strip.png"), before) << told(d.state());
+  EXPECT_EQ(gui::read_png(here + "/strip.png").width, 400);
   // One that is stopped says no more.
   d.hub().post(gui::Film{here + "/frames/%04d.png", 0});
   d.frame(2);
