@@ -65,7 +65,7 @@ Rows along(const Program& program, const Evaluator& evaluator, const Motion& mot
 }
 
 Samples sample(const Problem& problem, const Motion& motion, std::span<const double> functionals,
-               std::span<const double> times) {
+               std::span<const double> times, const std::set<std::string>* wanted) {
   Samples samples;
   samples.times.assign(times.begin(), times.end());
   std::map<std::string, Rows> rows;
@@ -75,8 +75,14 @@ Samples sample(const Problem& problem, const Motion& motion, std::span<const dou
     const Program& program = problem.programs.at(hash);
     return rows.emplace(hash, along(program, Evaluator(program), motion, functionals, times)).first->second;
   };
-  for (const Plot& plot : problem.plots) samples.values[plot.name] = table(rows_of(plot.program), plot.outputs);
-  for (const Body& body : problem.bodies) samples.poses[body.name] = table(rows_of(body.program), body.outputs);
+  const auto fill = [&](const auto& things, auto& tables) {
+    for (const auto& thing : things) {
+      if (wanted && !wanted->contains(thing.name)) continue;
+      tables[thing.name] = table(rows_of(thing.program), thing.outputs);
+    }
+  };
+  fill(problem.plots, samples.values);
+  fill(problem.bodies, samples.poses);
   return samples;
 }
 

@@ -1,7 +1,9 @@
 // Sampling a motion: named expressions and body poses at given times.
 #pragma once
 
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/evaluate.h"
@@ -22,10 +24,10 @@ struct Rows {
 Rows along(const Program& program, const Evaluator& evaluator, const Motion& motion,
            std::span<const double> functionals, std::span<const double> times);
 
-// Every plot and body pose of the problem along the motion, at `times` (s, within the motion's span).  `functionals`
-// has the value of each of the problem's functionals.
+// Every plot and body pose of the problem, or those whose names are wanted, along the motion, at `times` (s, within the
+// motion's span).  `functionals` has the value of each of the problem's functionals.
 Samples sample(const Problem& problem, const Motion& motion, std::span<const double> functionals,
-               std::span<const double> times);
+               std::span<const double> times, const std::set<std::string>* wanted = nullptr);
 
 // `count` times from start to end, both among them.
 std::vector<double> even_times(double start, double end, int count);

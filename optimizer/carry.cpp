@@ -2,19 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 
 namespace spacetime::optimizer {
 namespace {
 
+double time_of(const Row& row) { return std::isnan(row.time) ? 0 : row.time; }
 bool is_limit(const Row& row) { return row.kind == Row::Kind::hard && row.at_most; }
 
-// Instances of one component of a constraint.
-struct Instances {
-  std::vector<double> times;  // s, as the scope gives them
-  std::vector<double> duals;
-};
+// Of one component of a constraint: the multiplier of the first instance at each time (s), 0 where it has none.
+using Instances = std::map<double, double>;
+
+double nearest(const Instances& instances, double time) {
+  const auto after = instances.lower_bound(time);
+  if (after == instances.begin()) return after->second;
+  const auto before = std::prev(after);
+  return after == instances.end() || time - before->first <= after->first - time ? before->second : after->second;
+}
 
 // Calls visit(name and component, row) for every limit.
 template <typename Visit>
@@ -43,20 +49,11 @@ Carried carried(const Transcription& from, const Layout& layout, const NewtonSta
 
   std::map<std::pair<std::string, int>, Instances> known;
   for_each_limit(from, [&](const auto& key, std::size_t r) {
-    Instances& instances = known[key];
-    instances.times.push_back(std::isnan(from.rows[r].time) ? 0 : from.rows[r].time);
-    instances.duals.push_back(state.barrier.dual[layout.of_row[r]]);
+    known[key].emplace(time_of(from.rows[r]), state.barrier.dual[layout.of_row[r]]);
   });
   for_each_limit(to, [&](const auto& key, std::size_t r) {
     const auto found = known.find(key);
-    if (found == known.end()) return;
-    const auto& [times, duals] = found->second;
-    const double time = std::isnan(to.rows[r].time) ? 0 : to.rows[r].time;
-    std::size_t nearest = 0;
-    for (std::size_t k = 1; k < times.size(); ++k) {
-      if (std::abs(times[k] - time) < std::abs(times[nearest] - time)) nearest = k;
-    }
-    result.dual[r] = duals[nearest];
+    if (found != known.end()) result.dual[r] = nearest(found->second, time_of(to.rows[r]));
   });
 
   // Bounds' multipliers belong to coefficients: to the same ones while the basis is the same.

@@ -60,27 +60,27 @@ double Newton::largest_change(const Eigen::VectorXd& direction) const {
   return largest;
 }
 
+Newton::Pull Newton::pull_of(const NewtonState& state, const Eigen::VectorXd& pulled,
+                             Eigen::VectorXd multipliers) const {
+  for (int k = 0; k < layout_.size(); ++k) {
+    if (!kkt_.is_equation(k)) multipliers[k] = 0;
+  }
+  Eigen::VectorXd left = pulled + multiply(state.linear.jacobian, multipliers);
+  double squares = 0;
+  for (const int u : layout_.free) squares += left[layout_.of_unknown[u]] * left[layout_.of_unknown[u]];
+  return {std::move(multipliers), std::move(left), squares};
+}
+
 // The least-squares multipliers are known to what regularisation leaves of them: where rows nearly depend on one
 // another they may cancel less of the gradient than those the step was made with, which are then taken.
-void Newton::take_better_multipliers(NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd& lambda) const {
-  if (state.proposed.size() == 0) return;
-  const auto of_equations = [&](Eigen::VectorXd multipliers) {
-    for (int k = 0; k < layout_.size(); ++k) {
-      if (!kkt_.is_equation(k)) multipliers[k] = 0;
-    }
-    return multipliers;
-  };
-  const auto squares_left = [&](const Eigen::VectorXd& multipliers) {
-    const Eigen::VectorXd left = pulled + multiply(state.linear.jacobian, of_equations(multipliers));
-    double sum = 0;
-    for (const int u : layout_.free) sum += left[layout_.of_unknown[u]] * left[layout_.of_unknown[u]];
-    return sum;
-  };
-  if (squares_left(state.proposed) < much_better * squares_left(lambda)) {
-    lambda = state.proposed;
-  } else {
-    state.proposed.resize(0);
-  }
+Newton::Pull Newton::best_multipliers(NewtonState& state, const Eigen::VectorXd& pulled,
+                                      Eigen::VectorXd least_squares) const {
+  Pull best = pull_of(state, pulled, std::move(least_squares));
+  if (state.proposed.size() == 0) return best;
+  Pull proposed = pull_of(state, pulled, state.proposed);
+  if (proposed.squares < much_better * best.squares) return proposed;
+  state.proposed.resize(0);
+  return best;
 }
 
 // Derivatives, multipliers and measures at state.x.
@@ -97,10 +97,11 @@ void Newton::judge(NewtonState& state) {
   if (!state.values.finite) return;
 
   Linearisation& linear = state.linear;
+  const Eigen::VectorXd weights = soft_weights(t_, layout_, c);
   {
     const Stopwatch watch(state.seconds.evaluate);
     linearise(t_, layout_, state.x, workspace_, linear, state.active);
-    state.gradient = linear.gradient + multiply(linear.jacobian, soft_weights(t_, layout_, c).cwiseProduct(c));
+    state.gradient = linear.gradient + multiply(linear.jacobian, weights.cwiseProduct(c));
   }
   for (int k = 0; k < layout_.size(); ++k) {
     if (kkt_.is_row(k)) state.gradient[k] = 0;
@@ -108,7 +109,8 @@ void Newton::judge(NewtonState& state) {
   if (!state.gradient.allFinite()) return;
 
   // The gradient of the Lagrangian but for equations; then the equations' multipliers that best cancel it.
-  Eigen::VectorXd pulled = state.gradient + limits_.pull(state.barrier) + multiply(linear.jacobian, state.barrier.dual);
+  const Eigen::VectorXd pulled =
+      state.gradient + limits_.pull(state.barrier) + multiply(linear.jacobian, state.barrier.dual);
   std::optional<Eigen::VectorXd> lambda;
   {
     const Stopwatch watch(state.seconds.factor);
@@ -116,16 +118,12 @@ void Newton::judge(NewtonState& state) {
   }
   state.condition = StepResult::singular;
   if (!lambda) return;
-  take_better_multipliers(state, pulled, *lambda);
-  Eigen::VectorXd of_equations = Eigen::VectorXd::Zero(layout_.size());
-  const Eigen::VectorXd weights = soft_weights(t_, layout_, c);
+  const Pull best = best_multipliers(state, pulled, std::move(*lambda));
   for (std::size_t r = 0; r < t_.rows.size(); ++r) {
     const int k = layout_.of_row[r];
-    if (kkt_.is_equation(k)) of_equations[k] = (*lambda)[k];
-    state.multipliers[r] = of_equations[k] + state.barrier.dual[k] + weights[k] * c[k];
+    state.multipliers[r] = best.multipliers[k] + state.barrier.dual[k] + weights[k] * c[k];
   }
-  pulled += multiply(linear.jacobian, of_equations);
-  state.measures.stationarity = stationarity_of(layout_, pulled, state.gradient);
+  state.measures.stationarity = stationarity_of(layout_, best.left, state.gradient);
   state.measures.gap = limits_.gap(state.x, state.barrier, 0) / std::max(1.0, std::abs(state.values.objective));
 
   const Stopwatch watch(state.seconds.evaluate);

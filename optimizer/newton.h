@@ -108,7 +108,13 @@ class Newton {
 
   // newton.cpp
   void judge(NewtonState& state);
-  void take_better_multipliers(NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd& lambda) const;
+  // Multipliers of equations, zero elsewhere, and what they leave of the gradient of the Lagrangian.
+  struct Pull {
+    Eigen::VectorXd multipliers, left;
+    double squares = 0;  // sum over the free unknowns
+  };
+  Pull pull_of(const NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd multipliers) const;
+  Pull best_multipliers(NewtonState& state, const Eigen::VectorXd& pulled, Eigen::VectorXd least_squares) const;
   void move_inside(NewtonState& state);
   void settle_conditions(NewtonState& state);
   void lower_barrier(NewtonState& state, double tolerance) const;

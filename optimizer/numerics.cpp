@@ -40,6 +40,12 @@ void Numerics::close(const std::vector<double>& own, std::vector<double>& x) con
   }
 }
 
+double count_unknowns(const Problem& problem) {
+  double unknowns = static_cast<double>(problem.parameters.size());
+  for (const Dof& dof : problem.dofs) unknowns += dof.basis.size();
+  return unknowns;
+}
+
 std::vector<double> start_of(const Problem& problem, const Transcription& t, const Motion* from) {
   auto x = from ? sketch_from(problem, t.constants, *from) : sketch(problem, t.constants);
   x.resize(t.unknowns(), 0.0);

@@ -39,6 +39,9 @@ struct Numerics {
   void close(const std::vector<double>& own, std::vector<double>& x) const;
 };
 
+// Coefficients and parameters: what a problem asks for, functionals left out.
+double count_unknowns(const Problem& problem);
+
 // All unknowns where a problem starts: its keyframes and declared values, or a motion as far as it goes.
 std::vector<double> start_of(const Problem& problem, const Transcription& whole, const Motion* from);
 

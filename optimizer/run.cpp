@@ -70,15 +70,17 @@ Motion run(const Problem& problem, const RunOptions& options) {
   Watch watch;
   watch.threads = options.threads;
   watch.checkpoint = options.checkpoint;
-  watch.progress = [&](const IterationRecord& record) {
-    if (options.progress) options.progress(record);
-    if (options.record) records.push_back(record);
-  };
+  if (options.progress || options.record) {
+    watch.progress = [&](const IterationRecord& record) {
+      if (options.progress) options.progress(record);
+      if (options.record) records.push_back(record);
+    };
+  }
   watch.go_on = [&] {
     ended = interrupted = options.interrupted && options.interrupted();
     return !ended;
   };
-  watch.progress(session.record());
+  if (watch.progress) watch.progress(session.record());
   if (resumed && !options.start->record.empty() && options.record) records = options.start->record;
 
   while (progress.action < count && !ended) {

@@ -16,6 +16,7 @@
 #include "protocol/action_json.h"
 #include "protocol/check.h"
 #include "protocol/declared.h"
+#include "protocol/measure.h"
 #include "protocol/memory.h"
 #include "protocol/motion_json.h"
 #include "protocol/openrpc.h"
@@ -66,8 +67,8 @@ class Peer {
     params.object({"problem"}, {"revision"});
     Problem problem = checked_problem(params["problem"], allowance_);
     const double unknowns = count_unknowns(problem);
-    session_ = std::make_unique<Session>(std::move(problem));
-    session_->declare(std::numeric_limits<int>::max());
+    session_ = std::make_unique<Session>(std::move(problem), std::nullopt, std::numeric_limits<int>::max());
+    fingerprint_.clear();
     result.member("unknowns", static_cast<int>(unknowns));
   }
 
@@ -75,7 +76,8 @@ class Peer {
     params.object({"problem"}, {"revision"});
     Session& session = present();
     Problem problem = checked_problem(params["problem"], allowance_);
-    session.update(std::move(problem));
+    session.update(std::move(problem), allowance_.unknowns);
+    fingerprint_.clear();
     write_edit(result, {});
   }
 
@@ -111,7 +113,8 @@ class Peer {
     if (multipliers && multipliers->boolean()) motion.multipliers = session.multipliers();
     if (checkpoint && checkpoint->boolean()) {
       motion.checkpoint = session.checkpoint();
-      motion.checkpoint->problem = fingerprint(session.original());
+      if (fingerprint_.empty()) fingerprint_ = fingerprint(session.original());
+      motion.checkpoint->problem = fingerprint_;
       write_log(result, {});
     }
     result.key("motion");
@@ -185,8 +188,8 @@ class Peer {
     const int number = ++runs_;
     bool stopped = false;
     const auto show = [&, untold = std::make_shared<Untold>()](const IterationRecord& record) {
-      untold->add(record);
-      call.progress([iterate = Snapshot{number, record, untold, session.trajectories(), session.parameters()},
+      const int serial = untold->add(record);
+      call.progress([iterate = Snapshot{number, serial, record, untold, session.trajectories(), session.parameters()},
                      shown = shown_] { return iterate.text(*shown); });
     };
     Watch watch;
@@ -224,8 +227,9 @@ class Peer {
     result.member("message", outcome.message);
     result.member("iterations", made);
     const IterationRecord record = session.record();
-    write_measure(result, "objective", record.objective);
-    write_measure(result, "violation", record.violation);
+    const spacetime::Measures measures{result, true};
+    measures.member("objective", record.objective);
+    measures.member("violation", record.violation);
     result.member("seconds", took.count());
     // A run that was stopped amounts to its iterations; one that ended by itself to what it was asked, less what had
     // been done before its last edit.  Many starts that were stopped are not logged: how far each had come is chance;
@@ -240,6 +244,7 @@ class Peer {
 
   const protocol::Allowance& allowance_;
   std::unique_ptr<Session> session_;
+  std::string fingerprint_;  // of the problem it has, once asked for
   std::optional<Run> run_;
   int runs_ = 0;
   std::shared_ptr<Shown> shown_ = std::make_shared<Shown>();

@@ -8,12 +8,10 @@
 
 namespace spacetime::optimizer {
 
-double count_unknowns(const Problem& problem);
-
 // Throws the limit's error, or DocumentError where the problem is not in order.
 Problem checked_problem(const Node& node, const protocol::Allowance& allowance);
 
-// What a refinement would make is held to what a problem may be.
+// A refinement's unknowns are counted before anything is made.
 void require_room(const Problem& problem, const Refine& action, const protocol::Allowance& allowance);
 
 }  // namespace spacetime::optimizer

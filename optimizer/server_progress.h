@@ -4,17 +4,12 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "common/motion.h"
-#include "protocol/writer.h"
 
 namespace spacetime::optimizer {
-
-// A number, or null where it is none.
-void write_measure(Writer& to, std::string_view name, double value);
 
 // What one peer has been shown of a run, so that only changes are sent.  Used by whoever writes its messages.
 struct Shown {
@@ -23,20 +18,26 @@ struct Shown {
 };
 
 // The iterations of a run that no message has told of yet: iterates may be left out, what was measured at them is not.
+// They are known by the order they came in: an iteration's number may fall where another motion is put in place.
 class Untold {
  public:
-  void add(const IterationRecord& record);
-  std::vector<IterationRecord> take_up_to(int iteration);
+  int add(const IterationRecord& record);  // its serial number
+  std::vector<IterationRecord> take_up_to(int serial);
 
  private:
   static constexpr std::size_t most = 1024;
+  struct Numbered {
+    int serial;
+    IterationRecord record;
+  };
   std::mutex mutex_;
-  std::vector<IterationRecord> records_;
+  int last_ = 0;
+  std::vector<Numbered> records_;
 };
 
 // An iterate, copied to be written later, or never.
 struct Snapshot {
-  int run = 0;
+  int run = 0, serial = 0;
   IterationRecord record;
   std::shared_ptr<Untold> untold;
   std::vector<Trajectory> dofs;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <set>
 
 #include "common/bspline.h"
+#include "common/limits.h"
 #include "protocol/declared.h"
+#include "protocol/measure.h"
 
 namespace spacetime::optimizer {
 namespace {
@@ -33,6 +35,27 @@ Derivative derivative_named(const Node& name, const Problem& problem) {
   return {name.string(), static_cast<std::size_t>(found - problem.dofs.begin()), order};
 }
 
+// What is worked out for each time.
+struct Cost {
+  double numbers = 0, operations = 0;
+};
+
+Cost cost_of(const Problem& problem, const std::set<std::string>* only) {
+  Cost cost;
+  std::set<std::string_view> programs;
+  const auto add = [&](const auto& things) {
+    for (const auto& thing : things) {
+      if (only && !only->contains(thing.name)) continue;
+      cost.numbers += static_cast<double>(thing.outputs.size());
+      if (!programs.insert(thing.program).second) continue;
+      cost.operations += static_cast<double>(problem.programs.at(thing.program).op.size());
+    }
+  };
+  add(problem.plots);
+  add(problem.bodies);
+  return cost;
+}
+
 }  // namespace
 
 void answer_sample(const Node& params, const Session& session, const protocol::Allowance& allowance, Writer& result) {
@@ -45,23 +68,29 @@ void answer_sample(const Node& params, const Session& session, const protocol::A
           fmt::format("{:.9g} is outside the problem's time, {:.9g} to {:.9g}", times[i], problem.start, problem.end));
     }
   }
-  std::size_t each = 0;
-  for (const Plot& plot : problem.plots) each += plot.outputs.size();
-  each += 12 * problem.bodies.size();
-  std::optional<std::vector<std::string>> wanted;
+  std::optional<std::set<std::string>> wanted;
   std::vector<Derivative> dofs;
   if (const auto names = params.find("expressions")) {
-    wanted = names->each([&](const Node& name) {
+    wanted.emplace();
+    names->each([&](const Node& name) {
+      if (!wanted->insert(name.string()).second) return 0;  // named twice, told once
       const auto is_it = [&](const auto& thing) { return thing.name == name.string(); };
       if (std::ranges::none_of(problem.plots, is_it) && std::ranges::none_of(problem.bodies, is_it)) {
         dofs.push_back(derivative_named(name, problem));
       }
-      return name.string();
+      return 0;
     });
   }
-  const double numbers = static_cast<double>(times.size()) * static_cast<double>(each + dofs.size());
+  const std::set<std::string>* only = wanted ? &*wanted : nullptr;
+  const Cost each = cost_of(problem, only);
+  const double count = static_cast<double>(times.size());
+  const double numbers = count * (each.numbers + static_cast<double>(dofs.size()));
   if (numbers > allowance.samples) throw beyond("samples", allowance, numbers);
-  Samples samples = session.samples(times);
+  if (const double operations = count * each.operations; operations > limits::evaluated_operations) {
+    params["times"].refuse(fmt::format("that would run {:.3g} operations, more than {:.3g}: ask for fewer at once",
+                                       operations, limits::evaluated_operations));
+  }
+  Samples samples = session.samples(times, only);
   const auto curves = session.trajectories();
   for (const Derivative& dof : dofs) {
     std::vector<std::vector<double>> rows;
@@ -69,14 +98,14 @@ void answer_sample(const Node& params, const Session& session, const protocol::A
     for (const double t : times) rows.push_back({value(curve.basis, curve.coefficients, t, dof.order)});
     samples.values.insert_or_assign(dof.name, std::move(rows));
   }
+  const spacetime::Measures measures{result, true};
   const auto write_rows = [&](std::string_view member, const auto& tables) {
     result.key(member);
     result.object([&] {
       for (const auto& [name, rows] : tables) {
-        if (wanted && std::ranges::find(*wanted, name) == wanted->end()) continue;
         result.key(name);
         result.list_of(rows, [&](const std::vector<double>& row) {
-          result.list_of(row, [&](double value) { std::isfinite(value) ? result.number(value) : result.null(); });
+          result.list_of(row, [&](double number) { measures.value(number); });
         });
       }
     });

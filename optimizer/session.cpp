@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/diagnostic.h"
 #include "common/sample.h"
@@ -43,10 +44,11 @@ bool is_edit(const Action& action) {
   return !std::holds_alternative<Solve>(action) && !std::holds_alternative<Iterate>(action);
 }
 
-Session::Session(Problem problem, std::optional<Motion> start)
+Session::Session(Problem problem, std::optional<Motion> start, int declared)
     : original_(std::make_shared<Problem>(std::move(problem))),
       edited_{*original_, {}},
       start_(std::move(start)),
+      declared_(declared),
       now_(std::make_shared<Numerics>(in_effect(edited_, declared_), setting_)) {
   restart(start_of(now_->problem, now_->whole, start_ ? &*start_ : nullptr));
 }
@@ -55,11 +57,18 @@ void Session::declare(int action) {
   const auto begins = [&](const auto& statement) { return statement.since > declared_ && statement.since <= action; };
   const bool more = std::ranges::any_of(edited_.problem.constraints, begins) ||
                     std::ranges::any_of(edited_.problem.objective, begins);
-  declared_ = std::max(declared_, action);
-  if (more) take_over(edited_, setting_);
+  const int before = std::exchange(declared_, std::max(declared_, action));
+  if (!more) return;
+  try {
+    take_over(edited_, setting_);
+  } catch (...) {
+    declared_ = before;
+    throw;
+  }
 }
 
 void Session::perform(const Action& action, const Watch& watch) {
+  mend();
   std::visit([&](const auto& which) { act(which, watch); }, action);
 }
 
@@ -71,7 +80,7 @@ void Session::act(const Reset&, const Watch&) {
 void Session::act(const Window& window, const Watch&) {
   Setting setting = setting_;
   setting.window = window;
-  take_over(edited_, setting);
+  take_over(edited_, std::move(setting));
 }
 
 void Session::act(const Damp& damp, const Watch&) {
@@ -81,7 +90,7 @@ void Session::act(const Damp& damp, const Watch&) {
   for (const Dof& dof : now_->problem.dofs) {
     if (damp.dofs.empty() || std::ranges::count(damp.dofs, dof.name) > 0) setting.damping[dof.name] = limit;
   }
-  take_over(edited_, setting);
+  take_over(edited_, std::move(setting));
 }
 
 void Session::act(const Refine& action, const Watch&) {
@@ -147,9 +156,11 @@ requires requires(Edited& edited, const Edit& edit) { apply(edited, edit); }
 void Session::act(const Edit& edit, const Watch&) {
   Edited next = edited_;
   apply(next, edit);
+  auto edits = edits_;
+  if (!edits.empty() && replaces(edit, edits.back())) edits.pop_back();
+  edits.push_back(edit);
   take_over(std::move(next), setting_);
-  if (!edits_.empty() && replaces(edit, edits_.back())) edits_.pop_back();
-  edits_.push_back(edit);
+  edits_ = std::move(edits);
 }
 
 template <class Other>
@@ -157,7 +168,7 @@ void Session::act(const Other& other, const Watch&) {
   not_built(fmt::format("the action '{}'", name_of(Action(other))));
 }
 
-void Session::update(Problem problem) {
+void Session::update(Problem problem, double most_unknowns) {
   auto original = std::make_shared<const Problem>(std::move(problem));
   // What has been edited stays so, as in a text whose later lines declare more; knots that a refinement chose, too.
   Edited next{*original, {}};
@@ -170,21 +181,26 @@ void Session::update(Problem problem) {
     if (declared == original_->dofs.end() || declared->basis != dof.basis) continue;
     dof.basis = edited_.problem.dofs[static_cast<std::size_t>(declared - original_->dofs.begin())].basis;
   }
+  if (const double unknowns = count_unknowns(next.problem); unknowns > most_unknowns) {
+    throw InputError(fmt::format("on the knots that `refine` chose the problem has {:.0f} unknowns, more than {:.0f}",
+                                 unknowns, most_unknowns));
+  }
   Problem effect = in_effect(next, declared_);
   if (same_to_iterate(effect, now_->problem)) {
-    // More to look at, or to be named by later actions: nothing that the iterations know of.
+    // More to look at, or to be named by later actions: nothing that the iterations know of.  The programs they refer
+    // to stay where they are.
+    std::erase_if(now_->problem.programs,
+                  [&](const auto& program) { return !effect.programs.contains(program.first); });
     now_->problem.programs.merge(effect.programs);
     now_->problem.plots = std::move(effect.plots);
     now_->problem.bodies = std::move(effect.bodies);
     now_->problem.keyframes = std::move(effect.keyframes);
   } else {
     auto numerics = std::make_shared<Numerics>(std::move(effect), setting_);
-    const Motion reached = motion();
+    const Motion reached = bare();
     auto x = start_of(numerics->problem, numerics->whole, &reached);
-    const bool same_dofs = numerics->problem.dofs == now_->problem.dofs;
-    const auto dual = same_dofs ? std::optional(carried(now_->t(), now_->layout, state_, numerics->t())) : std::nullopt;
-    now_ = std::move(numerics);
-    restart(std::move(x), dual ? &*dual : nullptr);
+    const Carried dual = carried(now_->t(), now_->layout, state_, numerics->t());
+    go_on_from(stand(std::move(numerics), std::move(x), &dual));
   }
   original_ = std::move(original);
   edited_ = std::move(next);
@@ -206,22 +222,22 @@ void Session::set_motion(const Motion& motion) {
   }
   auto numerics = other ? std::make_shared<Numerics>(in_effect(next, declared_), setting_) : now_;
   auto x = start_of(numerics->problem, numerics->whole, &motion);
-  if (other) edited_ = std::move(next);
-  now_ = std::move(numerics);
+  Standing there = stand(std::move(numerics), std::move(x), nullptr);
+  edited_ = std::move(next);
+  go_on_from(std::move(there));
   state_.iterations = motion.iterations;
-  restart(std::move(x));
 }
 
 // Goes on with another problem, window or damping from the same motion, or from these curves of the new problem.  What
 // cannot be is refused here, before anything is lost.
-void Session::take_over(Edited edited, const Setting& setting, const Curves* curves) {
+void Session::take_over(Edited edited, Setting setting, const Curves* curves) {
   auto numerics = std::make_shared<Numerics>(in_effect(edited, declared_), setting);
   auto x = curves ? unknowns(*curves) : settled();
   const Carried dual = carried(now_->t(), now_->layout, state_, numerics->t());
+  Standing there = stand(std::move(numerics), std::move(x), &dual);
   edited_ = std::move(edited);
-  setting_ = setting;
-  now_ = std::move(numerics);
-  restart(std::move(x), &dual);
+  setting_ = std::move(setting);
+  go_on_from(std::move(there));
 }
 
 Curves Session::curves() const { return curves_of(now_->whole, unknowns()); }
@@ -235,30 +251,51 @@ void Session::reshape(const Curves& curves) {
 }
 
 // Goes on from x with the problem as it stands.
-void Session::restart(std::vector<double> x, const Carried* carried) {
-  const int iterations = state_.iterations;
-  const Seconds seconds = state_.seconds;
-  ++restarts_;
-  minima_.clear();
-  objective_outside_ = 0;
-  terms_outside_.clear();
-  x_ = std::move(x);
-  auto own = now_->open(x_);
-  if (now_->part) {
+void Session::restart(std::vector<double> x, const Carried* carried) { go_on_from(stand(now_, std::move(x), carried)); }
+
+Session::Standing Session::stand(std::shared_ptr<Numerics> numerics, std::vector<double> x,
+                                 const Carried* carried) const {
+  if (numerics == now_ && numerics->part && numerics->whole.functionals() > 0) {
+    // What functionals come to outside the window stands in the part, which threads of many starts may be reading.
+    numerics = std::make_shared<Numerics>(now_->problem, setting_);
+    numerics->newton.set_pivoted_solves(now_->newton.pivoted_solves());
+  }
+  Standing there;
+  there.numerics = std::move(numerics);
+  there.x = std::move(x);
+  Numerics& next = *there.numerics;
+  auto own = next.open(there.x);
+  if (next.part) {
     Workspace workspace;
-    const Values whole = evaluate(now_->whole, x_, workspace), part = evaluate(*now_->part, own, workspace);
-    objective_outside_ = whole.objective - part.objective;
-    const auto inside = terms_of(*now_->part, part);
-    for (const auto& [name, value] : terms_of(now_->whole, whole)) {
-      terms_outside_.push_back(value - inside[terms_outside_.size()].second);
+    const Values whole = evaluate(next.whole, there.x, workspace), part = evaluate(*next.part, own, workspace);
+    there.objective_outside = whole.objective - part.objective;
+    const auto inside = terms_of(*next.part, part);
+    for (const auto& [name, value] : terms_of(next.whole, whole)) {
+      there.terms_outside.push_back(value - inside[there.terms_outside.size()].second);
     }
   }
-  state_ = now_->newton.start(std::move(own), carried);
-  state_.iterations = iterations;
-  state_.seconds.evaluate += seconds.evaluate;
-  state_.seconds.factor += seconds.factor;
+  there.state = next.newton.start(std::move(own), carried);
+  return there;
+}
+
+void Session::go_on_from(Standing there) noexcept {
+  there.state.iterations = state_.iterations;
+  there.state.seconds.evaluate += state_.seconds.evaluate;
+  there.state.seconds.factor += state_.seconds.factor;
+  now_ = std::move(there.numerics);
+  x_ = std::move(there.x);
+  objective_outside_ = there.objective_outside;
+  terms_outside_ = std::move(there.terms_outside);
+  state_ = std::move(there.state);
+  ++restarts_;
+  minima_.clear();
   judged_ = false;
+  torn_ = false;
   other_ = {};
+}
+
+void Session::mend() {
+  if (torn_) restart(unknowns());
 }
 
 double Session::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
@@ -276,9 +313,10 @@ IterationRecord Session::record() const {
           elapsed()};
 }
 
-std::vector<Trajectory> Session::trajectories() const {
+std::vector<Trajectory> Session::trajectories() const { return trajectories(unknowns()); }
+
+std::vector<Trajectory> Session::trajectories(const std::vector<double>& x) const {
   const Transcription& t = now_->whole;
-  const auto x = unknowns();
   std::vector<Trajectory> result;
   for (int dof = 0; dof < t.dofs(); ++dof) {
     result.push_back({now_->problem.dofs[dof].name,
@@ -289,6 +327,7 @@ std::vector<Trajectory> Session::trajectories() const {
 }
 
 std::vector<double> Session::unknowns() const {
+  if (!now_->part) return state_.x;
   auto x = x_;
   now_->close(state_.x, x);
   return x;
@@ -304,8 +343,9 @@ std::vector<double> Session::unknowns(const Curves& curves) const {
 }
 
 std::vector<std::pair<std::string, double>> Session::parameters() const {
-  const auto x = unknowns();
   std::vector<std::pair<std::string, double>> result;
+  if (now_->problem.parameters.empty()) return result;
+  const auto x = unknowns();
   for (std::size_t k = 0; k < now_->problem.parameters.size(); ++k) {
     result.emplace_back(now_->problem.parameters[k].name, x[now_->whole.first_parameter() + k]);
   }
@@ -320,15 +360,31 @@ std::vector<double> Session::settled() const {
   return x;
 }
 
+Motion Session::bare() const {
+  Motion motion;
+  motion.start = now_->problem.start;
+  motion.end = now_->problem.end;
+  motion.dofs = trajectories();
+  motion.parameters = parameters();
+  return motion;
+}
+
+std::vector<std::pair<std::string, double>> Session::constants() const {
+  std::vector<std::pair<std::string, double>> result;
+  for (const Constant& constant : now_->problem.constants) {
+    result.emplace_back(constant.name, now_->whole.constants.at(constant.name));
+  }
+  return result;
+}
+
 Motion Session::motion(double tolerance) {
+  mend();
   if (!judged_) judge(tolerance);
   const Transcription& t = now_->whole;
   const Problem& problem = now_->problem;
   const auto x = settled();
 
-  Motion motion;
-  motion.start = problem.start;
-  motion.end = problem.end;
+  Motion motion = bare();
   motion.status = outcome_.status;
   motion.message = outcome_.message + remark_of(now_->newton.pivoted_solves());
   motion.iterations = state_.iterations;
@@ -336,11 +392,7 @@ Motion Session::motion(double tolerance) {
   const auto active = now_->part ? active_rows(t, x, workspace) : state_.active;
   measure(t, x, evaluate(t, x, workspace, active), motion);
   add_multipliers(multipliers(), motion);
-  motion.dofs = trajectories();
-  motion.parameters = parameters();
-  for (const Constant& constant : problem.constants) {
-    motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
-  }
+  motion.constants = constants();
   motion.minima = minima_;
   add_bodies(problem, motion);
   motion.seconds = state_.seconds;
@@ -356,16 +408,11 @@ std::vector<Multipliers> Session::multipliers() const {
   return multipliers_of(now_->t(), now_->layout, state_);
 }
 
-Samples Session::samples(std::span<const double> times) const {
-  const Transcription& t = now_->whole;
+Samples Session::samples(std::span<const double> times, const std::set<std::string>* wanted) const {
   const auto x = settled();
-  Motion motion;  // what samples are taken of
-  motion.dofs = trajectories();
-  motion.parameters = parameters();
-  for (const Constant& constant : now_->problem.constants) {
-    motion.constants.emplace_back(constant.name, t.constants.at(constant.name));
-  }
-  return sample(now_->problem, motion, std::span(x).subspan(t.first_functional()), times);
+  Motion motion = bare();
+  motion.constants = constants();
+  return sample(now_->problem, motion, std::span(x).subspan(now_->whole.first_functional()), times, wanted);
 }
 
 }  // namespace spacetime::optimizer

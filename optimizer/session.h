@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <variant>
@@ -41,8 +43,9 @@ bool is_edit(const Action& action);
 class Session {
  public:
   // Starts from the keyframes, or from `start`, to which `reset` then returns.  Throws InputError where the problem
-  // makes no sense with its constants' values.  Of statements declared behind actions none counts yet.
-  explicit Session(Problem problem, std::optional<Motion> start = {});
+  // makes no sense with its constants' values.  Of statements declared behind actions those count that stand before
+  // action number `declared` of the problem's list.
+  explicit Session(Problem problem, std::optional<Motion> start = {}, int declared = 0);
 
   // Statements that take effect before action number `action` of the problem's list do so.
   void declare(int action);
@@ -51,9 +54,9 @@ class Session {
   void perform(const Action& action, const Watch& watch = {});
 
   // Another problem takes the place of this one, and what has been edited is edited in it; the motion goes on as far as
-  // names agree, undisturbed where iterations do not depend on what differs.  Throws InputError; all is
-  // then as it was before.
-  void update(Problem problem);
+  // names agree, undisturbed where iterations do not depend on what differs.  Throws InputError, also where there would
+  // be more unknowns than `most_unknowns` on the knots that refinements chose; all is then as it was before.
+  void update(Problem problem, double most_unknowns = std::numeric_limits<double>::infinity());
 
   // The motion as it stands, with what the last `solve` or `iterate` came to.  One edited since is judged first, by the
   // tolerance, under the problem as it is now.
@@ -71,8 +74,8 @@ class Session {
   // The motion as it stands, to come back to by set_motion: with a checkpoint, without measures.
   Motion moment() const;
 
-  // Every plotted expression and body pose, at times (s) within the problem's span.
-  Samples samples(std::span<const double> times) const;
+  // Every plotted expression and body pose, or the wanted ones, at times (s) within the problem's span.
+  Samples samples(std::span<const double> times, const std::set<std::string>* wanted = nullptr) const;
 
   // The present point.
   IterationRecord record() const;
@@ -115,8 +118,19 @@ class Session {
   void iterate(int limit, double tolerance, const Watch& watch);  // by Newton
   template <class State, class Make>
   void iterate_by(const Make& make, int limit, double tolerance, const Watch& watch);
+  // A point of a problem with all that is worked out there.
+  struct Standing {
+    std::shared_ptr<Numerics> numerics;
+    std::vector<double> x;
+    double objective_outside = 0;
+    std::vector<double> terms_outside;
+    NewtonState state;
+  };
+  // Whatever can fail, for want of memory too, fails in `stand`, while nothing has changed; the others change all.
+  Standing stand(std::shared_ptr<Numerics> numerics, std::vector<double> x, const Carried* carried) const;
+  void go_on_from(Standing standing) noexcept;
   void restart(std::vector<double> x, const Carried* carried = nullptr);
-  void take_over(Edited edited, const Setting& setting, const Curves* curves = nullptr);
+  void take_over(Edited edited, Setting setting, const Curves* curves = nullptr);
   Curves curves() const;
   template <class Change, class... Arguments>
   void change_curves(const Change& change, const Arguments&... arguments);  // by a function of reshape.h
@@ -124,12 +138,16 @@ class Session {
   void refine_where_needed(const Refine& action);
   void resume(const Motion& motion);
   void judge(double tolerance);
+  void mend();  // after an exception
   bool reached(double tolerance) const;
   std::string nth_iteration() const;  // "iteration 12", the last
   std::string standing(double tolerance) const;
   bool foreign() const { return other_.index() != 0; }
   std::vector<double> unknowns() const;
   std::vector<double> unknowns(const Curves& curves) const;
+  std::vector<Trajectory> trajectories(const std::vector<double>& x) const;
+  Motion bare() const;  // its curves and parameters alone
+  std::vector<std::pair<std::string, double>> constants() const;
   std::vector<double> settled() const;
   std::string standing_elsewhere(double tolerance) const;
   double elapsed() const;
@@ -151,6 +169,7 @@ class Session {
   Outcome outcome_;
   std::vector<Minimum> minima_;  // of the last solve, where it had many starts
   bool judged_ = false;          // the outcome speaks of the present point
+  bool torn_ = false;  // a step ended in an exception: x is whole, what is known there may be of another point
   // Of another method than Newton, where one has led to this point: what only Newton wants of state_ is then older.
   std::variant<std::monostate, Sqp92State, BfgsState> other_;
 };

@@ -40,14 +40,10 @@ Checkpoint Session::checkpoint() const {
 }
 
 Motion Session::moment() const {
-  Motion motion;
-  motion.start = now_->problem.start;
-  motion.end = now_->problem.end;
+  Motion motion = bare();
   motion.status = outcome_.status;
   motion.message = outcome_.message;
   motion.iterations = state_.iterations;
-  motion.dofs = trajectories();
-  motion.parameters = parameters();
   motion.minima = minima_;
   motion.checkpoint = checkpoint();
   return motion;
@@ -96,6 +92,8 @@ void Session::resume(const Motion& motion) {
     }
     part->elsewhere = at.outside->functionals;
     own = taken(whole, *part, x);
+  } else if (at.outside) {
+    throw CheckpointError("/checkpoint/outside", "there is no window that anything could be outside of");
   }
   const Transcription& t = numerics->t();
   NewtonState state = brought_back(t, numerics->layout, at.newton, std::move(own));
@@ -123,31 +121,38 @@ void Session::resume(const Motion& motion) {
     bring_back(method.resume(state.x, at.bfgs->inverse));
   }
 
-  edited_ = std::move(edited);
-  edits_ = at.edits;
-  start_.reset();
+  std::optional<Motion> start;
   if (at.start) {
-    start_.emplace();
-    start_->dofs = at.start->dofs;
-    start_->parameters = at.start->parameters;
+    start.emplace();
+    start->dofs = at.start->dofs;
+    start->parameters = at.start->parameters;
   }
+  auto edits = at.edits;
+  auto terms_outside = at.outside ? at.outside->terms : std::vector<double>{};
+  auto minima = motion.minima;
+  Outcome outcome{motion.status, motion.message};
+  const std::string remark = remark_of(at.pivoted);
+  if (!remark.empty() && outcome.message.ends_with(remark)) {
+    outcome.message.resize(outcome.message.size() - remark.size());
+  }
+
+  edited_ = std::move(edited);
+  edits_ = std::move(edits);
+  start_ = std::move(start);
   declared_ = at.declared;
   setting_ = std::move(setting);
   shakes_ = at.shakes;
   now_ = std::move(numerics);
   x_ = std::move(x);
   objective_outside_ = at.outside ? at.outside->objective : 0;
-  terms_outside_ = at.outside ? at.outside->terms : std::vector<double>{};
+  terms_outside_ = std::move(terms_outside);
   state_ = std::move(state);
   ++restarts_;
   other_ = std::move(other);
-  minima_ = motion.minima;
-  outcome_ = {motion.status, motion.message};
-  const std::string remark = remark_of(at.pivoted);
-  if (!remark.empty() && outcome_.message.ends_with(remark)) {
-    outcome_.message.resize(outcome_.message.size() - remark.size());
-  }
+  minima_ = std::move(minima);
+  outcome_ = std::move(outcome);
   judged_ = at.judged;
+  torn_ = false;
 }
 
 }  // namespace spacetime::optimizer

@@ -15,18 +15,30 @@ namespace {
 // How far starts are shaken (rad or m).
 constexpr double start_amplitude = 1;
 
+// As long as it lives, one state stands where the other does.
+class Instead {
+ public:
+  Instead(NewtonState& place, NewtonState& other) : place_(place), other_(other) { std::swap(place_, other_); }
+  ~Instead() { std::swap(place_, other_); }
+  Instead(const Instead&) = delete;
+  Instead& operator=(const Instead&) = delete;
+
+ private:
+  NewtonState &place_, &other_;
+};
+
 constexpr auto ended_by_edit = "Stopped: an edit ended the solve from many starts, and no start has moved the motion.";
 
 }  // namespace
 
 void Session::act(const Solve& solve, const Watch& watch) {
-  minima_.clear();
   if (solve.starts > 1 && solve.method != Solve::Method::newton) {
     throw InputError("only the method 'newton' solves from many starts");
   }
   const int limit = solve.iterations.value_or(default_iterations);
   switch (solve.method) {
     case Solve::Method::newton:
+      minima_.clear();
       if (solve.starts > 1) return solve_from_many(solve.starts, limit, solve.tolerance, watch);
       return iterate(limit, solve.tolerance, watch);
     case Solve::Method::sqp92:
@@ -82,9 +94,8 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
       if (watch.progress) {
         NewtonState reached = ended[best].state;
         reached.iterations = iterations;
-        std::swap(state_, reached);
+        const Instead instead(state_, reached);
         watch.progress(record());
-        std::swap(state_, reached);
       }
       if (shown < points.size() && asked_to_stop()) return false;
     }
@@ -113,11 +124,16 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
   const auto ended = std::ranges::count(endings, false, &Ending::cut);
   const auto groups = distinct(endings, tolerance);
   std::size_t converged = 0;
+  std::vector<Minimum> minima;
   for (const auto& group : groups) {
-    state_ = endings[group.front()].state;
-    minima_.push_back({state_.values.objective + objective_outside_, group, trajectories()});
+    const NewtonState& end = endings[group.front()].state;
+    auto x = x_;
+    now_->close(end.x, x);
+    minima.push_back({end.values.objective + objective_outside_, group, trajectories(x)});
     converged += group.size();
   }
+  now_->newton.complete(endings[best].state);
+  minima_ = std::move(minima);
   state_ = std::move(endings[best].state);
   state_.iterations = iterations;
   state_.seconds = seconds;
@@ -146,6 +162,7 @@ void Session::solve_from_many(int starts, int limit, double tolerance, const Wat
 template <class State, class Make>
 void Session::iterate_by(const Make& make, int limit, double tolerance, const Watch& watch) {
   auto method = std::make_unique<decltype(make())>(make());  // refused here, nothing is lost
+  minima_.clear();
   iterate(limit, tolerance, watch, [&](bool afresh) -> std::optional<Outcome> {
     if (afresh) {
       try {
@@ -203,7 +220,10 @@ void Session::iterate(int limit, double tolerance, const Watch& watch, const Ste
     if (last && state_.condition == StepResult::stepped && !reached(tolerance)) return use_up();
     std::optional<NewtonState> here;
     if (last) here = state_;
-    if (auto outcome = step(afresh)) {
+    torn_ = true;
+    auto outcome = step(afresh);
+    torn_ = false;
+    if (outcome) {
       outcome_ = std::move(*outcome);
       outcome_.message += standing_elsewhere(tolerance);
       return;

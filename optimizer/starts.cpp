@@ -46,6 +46,9 @@ std::vector<Ending> solve_from(const Transcription& t, const Layout& layout,
         ending.result = StepResult::converged;
       }
       ending.cut = ending.result == StepResult::stepped && ending.state.iterations < iterations;
+      // Matrices are what of a state is large, and follow from the rest.
+      ending.state.linear = {};
+      ending.state.gradient.resize(0);
       ended[k] = true;
     }
   };

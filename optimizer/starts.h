@@ -9,7 +9,7 @@
 
 namespace spacetime::optimizer {
 
-// How one start ended.
+// How one start ended.  The state is without derivatives, which Newton::complete adds.
 struct Ending {
   NewtonState state;
   StepResult result = StepResult::stepped;  // `stepped`: the iterations allowed were used up, or it was cut off

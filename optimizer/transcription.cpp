@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "common/diagnostic.h"
+#include "common/limits.h"
 #include "optimizer/batch.h"
 #include "optimizer/quadrature.h"
 
@@ -88,6 +89,29 @@ class Transcriber {
     if (found == out_.evaluators.end()) found = out_.evaluators.emplace(hash, Evaluator(*batch.program)).first;
     batch.evaluator = &found->second;
     return batch;
+  }
+
+  // Throws where a batch is more than a problem may have, before anything is made for each of its samples.
+  void charge(const Batch& batch, const std::string& what) {
+    evaluated_ += static_cast<double>(batch.program->op.size()) * static_cast<double>(batch.times.size());
+    if (evaluated_ > limits::evaluated_operations) {
+      throw InputError(
+          fmt::format("{}: one evaluation of all up to here runs {:.3g} operations, more than {:.3g}. Use "
+                      "larger steps, fewer knot spans or simpler expressions",
+                      what, evaluated_, limits::evaluated_operations));
+    }
+  }
+
+  void charge_rows(const Batch& batch, const std::string& what) {
+    const double rows =
+        static_cast<double>(out_.rows.size()) + batch.outputs() * static_cast<double>(batch.times.size());
+    if (rows > limits::instances) {
+      throw InputError(
+          fmt::format("{}: the constraints up to here have {:.0f} residuals (instances times components), "
+                      "more than {}. Use larger steps or fewer knot spans",
+                      what, rows, limits::instances));
+    }
+    charge(batch, what);
   }
 
   void finish(Batch batch) {
@@ -234,6 +258,7 @@ class Transcriber {
       batch.targets[functional.output] = {Target::Kind::functional, k, 1};
       sample(batch, functional.kind == Functional::Kind::integral, true, functional.from, functional.to,
              "a functional");
+      charge(batch, "a functional");
       const bool is_free = freedom_.whole || batch.samples() > 0;
       out_.functional_row.push_back(is_free ? static_cast<int>(out_.rows.size()) : -1);
       if (!is_free) continue;
@@ -255,6 +280,7 @@ class Transcriber {
         sample(batch, piece.kind == Piece::Kind::integral, piece.kind != Piece::Kind::once, piece.from, piece.to,
                term.name);
         if (batch.samples() == 0) continue;
+        charge(batch, term.name);
         Site site{piece.program, piece.kind, piece.kind == Piece::Kind::once ? std::vector<double>{} : batch.times};
         auto [found, added] = batch_of.try_emplace(std::move(site), static_cast<int>(pending.size()));
         // An output that two pieces share (one term twice) needs a batch of its own.
@@ -286,9 +312,10 @@ class Transcriber {
                               constraint.name);
     keep_free(batch);
     if (batch.times.empty()) return;
+    charge_rows(batch, constraint.name);
     if (constraint.condition) keep_where(*constraint.condition, batch);
     batch.first_row = static_cast<int>(out_.rows.size());
-    if (constraint.condition) add_condition(*constraint.condition, batch);
+    if (constraint.condition) add_condition(index, *constraint.condition, batch);
     for (const double time : batch.times) {
       row.time = time;
       out_.rows.insert(out_.rows.end(), batch.outputs(), row);
@@ -313,10 +340,11 @@ class Transcriber {
     });
   }
 
-  void add_condition(const Condition& condition, const Batch& batch) {
+  void add_condition(int index, const Condition& condition, const Batch& batch) {
     if (!depends_on_motion(problem_.programs.at(condition.program))) return;
     Conditional conditional{start_batch(condition.program), condition.output, batch.first_row, batch.outputs()};
     conditional.condition.times = batch.times;
+    charge(conditional.condition, problem_.constraints[index].name);
     conditional.condition.weights.assign(batch.times.size(), 1.0);
     conditional.condition.targets.resize(conditional.condition.outputs());
     complete(problem_, conditional.condition);
@@ -325,6 +353,7 @@ class Transcriber {
 
   const Problem& problem_;
   const Freedom& freedom_;
+  double evaluated_ = 0;  // operations in one evaluation, so far
   Transcription out_;
 };
 

@@ -5,6 +5,8 @@
 
 #include <cstddef>
 
+#include "common/limits.h"
+
 namespace spacetime::limits {
 
 // Bytes of text in one document.  The throw's problem has some 10^5; an animation of several minutes with samples of
@@ -27,15 +29,6 @@ inline constexpr std::size_t operations = 500'000;
 
 // Knot spans of one trajectory: wavelets of level 17, or nine minutes in steps of 4 ms.
 inline constexpr std::size_t spans = std::size_t{1} << 17;
-
-// Constraint residuals (instances times components) of a whole problem, as far as its numbers alone tell; the
-// optimizer keeps some hundred bytes of each.  Also the largest count a scope may ask for.
-inline constexpr int instances = 4'000'000;
-
-// Operations run in one evaluation of a whole problem: those of each program times its instances or quadrature points,
-// as far as its numbers alone tell.  Arms of twelve links on 4,096 spans run less than 1e9; this many take the better
-// part of a minute, within which nobody can cancel.
-inline constexpr double evaluated_operations = 1e11;
 
 // How often one `refine` may halve a knot span; after so many halves a double has no middle left.
 inline constexpr int halvings = 52;

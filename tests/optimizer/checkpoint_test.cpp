@@ -214,7 +214,11 @@ TEST(Checkpoint, IsRefusedWhereSizesDiffer) {
   expect("/checkpoint", [](Motion& m) { m.checkpoint->outside.reset(); });
   expect("/checkpoint/outside/functionals", [](Motion& m) { m.checkpoint->outside->functionals.clear(); });
   expect("/checkpoint/newton/slacks", [](Motion& m) { m.checkpoint->newton.slacks.pop_back(); });
-  expect("/checkpoint/newton/slacks", [](Motion& m) { m.checkpoint->window = {}; });
+  expect("/checkpoint/newton/slacks", [](Motion& m) {
+    m.checkpoint->window = {};
+    m.checkpoint->outside.reset();
+  });
+  expect("/checkpoint/outside", [](Motion& m) { m.checkpoint->window = {}; });
   expect("/checkpoint/newton/switches", [](Motion& m) { m.checkpoint->newton.switches.clear(); });
   expect("/checkpoint/edits/0", [](Motion& m) { m.checkpoint->edits = {Reset{}}; });
   EXPECT_EQ(session.motion().message, before);

@@ -5,6 +5,7 @@
 
 #include "common/diagnostic.h"
 #include "optimizer/run.h"
+#include "optimizer/session.h"
 #include "optimizer/transcription.h"
 #include "symbolic/compile.h"
 
@@ -211,6 +212,26 @@ TEST(Edits, ARefusedActionKeepsTheMotionReached) {
   EXPECT_NE(motion.message.find("line 7"), std::string::npos) << motion.message;
   EXPECT_NE(motion.message.find("adapt"), std::string::npos) << motion.message;
   EXPECT_NEAR(motion.dofs[0].coefficients.back(), 1, 1e-8);
+}
+
+// Where statements stand in the text is no matter of the motion: what its limits cost is known to a text with a line
+// more, as to an edit that changes nothing.
+TEST(Edit, ALineAboveIsNoEdit) {
+  const std::string text =
+      "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain (x, x') = (0, 1) at 0\n"
+      "constrain (x, x') = (0, -1) at 1\nconstrain x <= 1/9 over [0, 1] every 0.05\nminimize effort: integral(x''^2)\n";
+  Session updated(compiled(text)), edited(compiled(text));
+  updated.perform(Solve{});
+  edited.perform(Solve{});
+  ASSERT_EQ(updated.outcome().status, Status::converged) << updated.outcome().message;
+  const int iterations = updated.iterations();
+  updated.update(compiled("# what it is for\n" + text));
+  edited.perform(SetWeight{"effort", Quantity{1, {}, 0}});
+  updated.perform(Solve{});
+  edited.perform(Solve{});
+  EXPECT_EQ(updated.iterations(), edited.iterations());
+  EXPECT_LE(updated.iterations(), iterations + 2);
+  EXPECT_EQ(updated.trajectories(), edited.trajectories());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 """Runs: cancelled, edited while they go on, and replayed from their logs."""
 import random
 import statistics
+import tempfile
 import time
 import unittest
 
@@ -150,6 +151,24 @@ class Runs(unittest.TestCase):
             self.assertIn("unknowns", session.peer.answer(load)["result"])
             self.assertEqual(session.motion()["iterations"], 0)
 
+    def test_a_problem_that_is_refused_leaves_the_one_before_it(self):
+        with peer.Daemon("optimizer") as daemon:
+            session = Session(daemon)
+            session.load(self.problem)
+            session.do(action="iterate", iterations=2)
+            before = without_seconds(session.motion())
+            # What makes no sense stands behind an action, and shows with the value of a constant.
+            text = ("time [0, 1]\nconstant late = 0.5\ntrajectory bspline spans 4\ndof x\nminimize integral(x''^2)\n"
+                    "solve\nconstrain x = 0 at late\n")
+            with tempfile.NamedTemporaryFile("w", suffix=".scene") as scene:
+                scene.write(text)
+                scene.flush()
+                refused = peer.problem_of(scene.name)
+            refused["constants"][0]["value"] = 2
+            with self.assertRaisesRegex(RuntimeError, "time"):
+                session.load(refused)
+            self.assertEqual(without_seconds(session.motion()), before)
+
     def test_a_run_holds_up_no_other_session(self):
         with peer.Daemon("optimizer", "unix") as daemon:
             busy, other = Session(daemon), Session(daemon)
@@ -297,7 +316,7 @@ class Runs(unittest.TestCase):
             self.assertRegex(outcome["message"], "^Interrupted .* of 1000 starts [0-9]+ had ended")
 
     def test_threads_of_many_starts_allocate_for_their_session(self):
-        with peer.Daemon("optimizer", options=["--limit-memory", "60e6"]) as daemon:
+        with peer.Daemon("optimizer", options=["--limit-memory", "15e6"]) as daemon:
             session = Session(daemon)
             session.load(self.problem)
             run = session.peer.start("action/do", action={"action": "solve", "starts": 1000, "iterations": 1})
