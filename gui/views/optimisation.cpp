@@ -190,7 +190,11 @@ void draw_by_iteration(Ui& ui) {
 void draw_terms(Ui& ui) {
   const auto& motion = ui.state.motion;
   if (!motion) return;
-  if (!ImGui::BeginTable("terms", 2, ImGuiTableFlags_RowBg)) return;
+  // Close together, so that all of the panel has room at 1280x800.
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ImGui::GetStyle().CellPadding.x, ui.scaled(1)});
+  const bool drawn = ImGui::BeginTable("terms", 2, ImGuiTableFlags_RowBg);
+  ImGui::PopStyleVar();
+  if (!drawn) return;
   ImGui::TableSetupColumn("term", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthFixed, ui.scaled(84));
   const auto row = [&](const std::string& name, double value, bool strong) {

@@ -207,6 +207,8 @@ TEST(Window, ThePanelTellsOfTheRun) {
     d.save_picture(name + "-infeasible.png");
     const gui::Rect last = d.place("terms");
     EXPECT_LT(last.y + last.height, d.place("ruler").y - 20 * scale);
+    const gui::Rect chart = d.place("by iteration");  // and the chart with its names
+    EXPECT_LT(chart.y + chart.height + 20 * scale, d.place("bottom edge").y);
     d.click("tab Log");
     d.frame(3);
     d.save_picture(name + "-log.png");
