@@ -33,7 +33,8 @@ inline constexpr std::size_t spans = std::size_t{1} << 17;
 // How often one `refine` may halve a knot span; after so many halves a double has no middle left.
 inline constexpr int halvings = 52;
 
-// What a document says was counted: iterations, shakes.  All of them go on being counted, in an int; nobody has so many.
+// What a document says was counted: iterations, shakes.  All of them go on being counted, in an int; nobody has so
+// many.
 inline constexpr int count = 1'000'000'000;
 
 // Starts of one `solve`: each keeps a motion and what is known at its end until all have ended.
