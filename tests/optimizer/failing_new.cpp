@@ -8,6 +8,12 @@ namespace {
 
 thread_local long left = -1;  // -1: as many as are wanted
 
+void* allocate(std::size_t size) noexcept {
+  if (left == 0) return nullptr;
+  if (left > 0) --left;
+  return std::malloc(size);
+}
+
 }  // namespace
 
 Allocations::Allocations(long most) { left = most; }
@@ -16,11 +22,10 @@ Allocations::~Allocations() { left = -1; }
 }  // namespace spacetime::test
 
 void* operator new(std::size_t size) {
-  using spacetime::test::left;
-  if (left == 0) throw std::bad_alloc();
-  if (left > 0) --left;
-  if (void* memory = std::malloc(size)) return memory;
+  if (void* memory = spacetime::test::allocate(size)) return memory;
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return spacetime::test::allocate(size); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
