@@ -24,11 +24,13 @@ struct Save {
   std::string file;  // empty: where it was opened from
 };
 // Any line of the scene language, an action or a declaration: appended to the scene.  `place` and `about` tell where a
-// mistake in it is to be shown; the draft of that name goes when it is accepted.
+// mistake in it is to be shown.  One that was written in a draft brings the draft's text: when it is accepted the draft
+// of the name `about` goes, unless more was written in it meanwhile.
 struct Act {
   std::string line;
   Notice::Place place = Notice::Place::status;
   std::string about{};
+  std::optional<std::string> draft{};
 };
 struct DropSession {  // one that ended without being saved: it is not wanted any more
   std::string journal;

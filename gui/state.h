@@ -175,7 +175,7 @@ struct State {
   std::pair<double, double> span{0, 0};  // s, of the time that curves are shown of; as long as it is empty, all of it
   Selection selection;
   bool dark = true;
-  std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation; "" is a new one
+  std::map<std::string, std::string> drafts;  // texts that are being edited in place, by equation or "new constraint"
 
   // What is under way (work.h); no business of views.
   Work work;

@@ -50,6 +50,10 @@ void lose_place(State& state, Effects& effects) {
   work.at = 0;
   if (!work.run) return;
   work.discarded = true;
+  notify(state, {.place = Place::optimisation,
+                 .severity = Severity::warning,
+                 .text = "The run was given up: an act beside it was left half done.",
+                 .until = state.clock + 10});
   stop_run(state, effects);
 }
 
@@ -106,7 +110,7 @@ void apply(State& state, const Act& event, Effects&) {
     notify(state, {event.place, Severity::error, "So many acts wait already that this one was dropped.", event.about});
     return;
   }
-  work.tasks.push_back({event.line, event.place, event.about});
+  work.tasks.push_back({event.line, event.place, event.about, event.draft});
 }
 
 void apply(State& state, const RunScript&, Effects&) {
@@ -115,7 +119,7 @@ void apply(State& state, const RunScript&, Effects&) {
   if (!state.script.empty()) {
     work.scripting = true;
   } else if (!work.run && work.tasks.empty()) {
-    work.tasks.push_back({"solve", Place::optimisation, ""});
+    work.tasks.push_back({.line = "solve", .place = Place::optimisation});
   }
 }
 
@@ -182,7 +186,6 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
 
   work.job.added = std::move(statements);
   if (declares) work.job.declared = compiled.problem;
-  if (!work.run) cut_redo(state);
   if (declares && work.unloaded.empty()) {
     Request request;
     request.method = "problem/update";
@@ -196,6 +199,7 @@ void compiled_task(State& state, const Compiled& event, Effects& effects) {
   for (auto i = static_cast<std::size_t>(actions_of(base)); i < actions.size(); ++i) {
     const std::string action = json_of(actions[i].action);
     if (runs) {
+      cut_redo(state);
       // What follows a drag is a part of it, and does not dawdle.
       work.run = ask_action(state, effects, action, {Kind::run}, task.merge ? 0 : state.pace);
       work.action = action;
@@ -272,7 +276,8 @@ void finish_task(State& state, Effects& effects) {
   entry.scene = std::move(scene);
   // Its places are those of a text without the lines of the prelude.
   work.inexact = work.inexact || (work.job.declared && (entry.iterated || grown));
-  if (!task.about.empty() || task.place == Place::equations) state.drafts.erase(task.about);
+  const auto draft = task.draft ? state.drafts.find(task.about) : state.drafts.end();
+  if (draft != state.drafts.end() && draft->second == *task.draft) state.drafts.erase(draft);
   if (task.scripted) take_from_script(state);
   // After a drag the curves shown are those it led to already.
   const auto& before = state.log[state.present].motion;
@@ -280,6 +285,7 @@ void finish_task(State& state, Effects& effects) {
   if (work.run && !state.record.iterations.empty())
     state.record.edits.push_back(state.record.iterations.back().iteration);
   work.job = {};
+  if (!work.run) cut_redo(state);  // not before: what could be redone outlives an act that is refused
   append(state, std::move(entry), task.merge, true, effects);
   if (!work.run) work.ghosted = state.log.back().number;
   if (work.run) ask_motion(state, effects, {Kind::look});  // what a set constant is worth

@@ -45,6 +45,24 @@ void end_run(State& state) {
   state.stopping = work.unseen = work.discarded = work.pausing = work.whole = false;
 }
 
+// A run of which nothing is left: what it has shown goes, and the optimizer is led back to where the present entry is,
+// since nobody knows how far it has come.  Answers that were asked for beside the run may be of its iterates.
+void take_back_run(State& state) {
+  Work& work = state.work;
+  const bool seen = !work.unseen;
+  end_run(state);
+  work.at = 0;
+  work.scripting = false;
+  forget(state, Kind::checkpoint);
+  forget(state, Kind::look);
+  if (!seen) return;
+  const auto ghost = work.ghosted == state.log[state.present].number ? state.ghost : nullptr;
+  const auto pose = state.pose;
+  show(state, state.log[state.present]);
+  state.ghost = ghost;  // of the edit before the run
+  state.pose = pose;
+}
+
 // One step less on the way to the present entry.
 void count_step(State& state) {
   Work& work = state.work;
@@ -66,15 +84,15 @@ std::string joined(const std::vector<Logged>& log) {
 // A run is over: what it came to is an entry of the log.
 void finish_run(State& state, const Done& event, Effects& effects) {
   Work& work = state.work;
-  const bool seen = !work.unseen, discarded = work.discarded, pausing = work.pausing;
+  if (work.discarded) {
+    work.next_time = 0;
+    return take_back_run(state);
+  }
+  const bool seen = !work.unseen, pausing = work.pausing;
   end_run(state);
   // Checkpoints of entries made during the run show its end, if they are answered after it.
   forget(state, Kind::checkpoint);
   work.next_time = 0;
-  if (discarded) {
-    work.at = 0;
-    return;
-  }
   if (event.status == Status::failed || event.status == Status::infeasible) {
     notify(state, {Place::optimisation, Severity::warning, event.message});
   }
@@ -278,9 +296,7 @@ void apply(State& state, const Refused& event, Effects& effects) {
       if (--work.job.unanswered == 0) refuse_task(state, event.message, effects);
       return;
     case Kind::run:
-      if (work.ghosted != work.began) state.ghost = nullptr;  // nothing has changed
-      end_run(state);
-      work.scripting = false;
+      take_back_run(state);
       return tell(Place::optimisation, event.message);
     case Kind::go:
     case Kind::go_compile:

@@ -94,7 +94,7 @@ void apply(State& state, const KeyPose&, Effects& effects) {
   notify(state, {.place = Place::view,
                  .text = "Keyed as a starting guess: Run may move it. To hold the pose, add a constraint.",
                  .until = state.clock + remark_seconds});
-  apply(state, Act{line, Place::timeline, ""}, effects);
+  apply(state, Act{line, Place::timeline}, effects);
 }
 
 void apply(State& state, const Draft& event, Effects&) {

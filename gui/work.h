@@ -29,9 +29,10 @@ struct Task {
   std::string line;
   Notice::Place place = Notice::Place::status;
   std::string about{};
-  bool scripted = false;  // taken from State::script
-  bool merge = false;     // its entry becomes part of the one before it
-  bool iterates = false;  // known once it was compiled: has to wait for the end of a run
+  std::optional<std::string> draft{};  // the text that it was written as, in the draft of the name `about`
+  bool scripted = false;               // taken from State::script
+  bool merge = false;                  // its entry becomes part of the one before it
+  bool iterates = false;               // known once it was compiled: has to wait for the end of a run
 };
 
 // What a request was for.

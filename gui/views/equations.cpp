@@ -50,7 +50,7 @@ void draw_draft(Ui& ui, const std::string& about, const std::string& prefix, con
   if (entered) ui.memory.focused_drafts.erase(about);  // stays where it was typed, in case of a mistake
   const bool told = ui.notices(place, about);
   const bool applied = ImGui::SmallButton(("Apply##" + about).c_str());
-  if ((entered || applied) && !text.empty()) ui.act(prefix + text, place, about);
+  if ((entered || applied) && !text.empty()) ui.emit(Act{prefix + text, place, about, text});
   ui.control("apply " + about, "Make this a line of the scene (Enter).");
   ImGui::SameLine();
   if (ImGui::SmallButton(("Cancel##" + about).c_str())) ui.emit(Draft{about, std::nullopt});

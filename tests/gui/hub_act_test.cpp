@@ -73,6 +73,92 @@ TEST(Update, TwoSetsInOneLineOfWhichOneIsRefusedAreBothUndone) {
   EXPECT_EQ(table.count("motion/set"), 1);
 }
 
+// A run's progress, with a curve that differs.
+Iterated iterate_of(const Request& run, int iteration) {
+  IterationRecord record;
+  record.iteration = iteration;
+  Trajectory x;
+  x.name = "x";
+  x.coefficients = std::vector<double>(4, 100.0 + iteration);
+  return {run.number, {record}, {x}, {}};
+}
+
+// What is shown is what is saved and filmed: a run that is lost leaves none of its iterates, and the optimizer, of
+// which nobody knows how far it came, is led back.
+TEST(Update, ARunThatEndsInAnErrorIsTakenBack) {
+  Table table;
+  table.open();
+  table.set();
+  table.reach(1);
+  const auto ghost = table.state.ghost;
+  const Request run = table.solve();
+  table.feed(iterate_of(run, 5));
+  table.feed(SetPose{Pose{{{"x", 2}}}});
+  ASSERT_EQ(table.state.curves->dofs[0].coefficients[0], 105);
+  table.feed(Refused{run.number, "memory"});
+  EXPECT_FALSE(table.state.running);
+  EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 1);
+  EXPECT_TRUE(table.state.record.iterations.empty());
+  EXPECT_EQ(table.state.notices.back().text, "memory");
+  EXPECT_EQ(table.state.ghost, ghost);
+  EXPECT_TRUE(table.state.pose);
+  EXPECT_EQ(table.count("problem/load"), 1);
+  EXPECT_EQ(table.take("motion/set").params, "\"motion\":{\"at\":1}");
+}
+
+TEST(Update, ARunIsGivenUpWithAnActThatWasDoneInPart) {
+  for (const bool refused : {false, true}) {
+    Table table;
+    table.open();
+    const Request run = table.solve();
+    table.feed(iterate_of(run, 5));
+    table.feed(Act{"set k\nset k"});
+    table.compile();
+    const Request first = table.take("action/do"), second = table.take("action/do");
+    table.done(first, {{R"({"action":"iterate","iterations":4})", "iterate 4"}, {first.params.substr(9), ""}});
+    table.feed(Refused{second.number, "not so"});
+    EXPECT_TRUE(std::holds_alternative<Cancel>(table.others.back()));
+    const auto told = [&](const char* words) {
+      return std::ranges::any_of(table.state.notices, [&](const Notice& n) { return n.text.starts_with(words); });
+    };
+    EXPECT_TRUE(told("not so"));
+    EXPECT_TRUE(told("The run was given up"));
+    if (refused)
+      table.feed(Refused{run.number, "cancelled"});
+    else
+      table.done(run, {{R"({"action":"iterate","iterations":5})", "iterate 5"}}, true);
+    EXPECT_FALSE(table.state.running);
+    EXPECT_EQ(text_of(table.state), "time\n");
+    EXPECT_EQ(table.state.curves->dofs[0].coefficients[0], 0);
+    EXPECT_TRUE(table.state.record.iterations.empty());
+    EXPECT_FALSE(table.state.ghost);
+    EXPECT_EQ(table.take("motion/set").params, "\"motion\":{\"at\":0}");
+  }
+}
+
+TEST(Update, ADraftGoesWithTheActThatWasWrittenInItAlone) {
+  Table table;
+  table.open();
+  const auto perform = [&](const Act& act) {
+    table.feed(act);
+    table.compile();
+    const Request request = table.take("action/do");
+    table.done(request, {{request.params.substr(9), ""}});
+    table.reach(0);
+  };
+  table.feed(Draft{"goal", "x = 1"});
+  perform(Act{"set k", Notice::Place::equations, "goal"});  // switched off, say
+  EXPECT_EQ(table.state.drafts.at("goal"), "x = 1");
+  table.feed(Act{"set k", Notice::Place::equations, "goal", "x = 1"});
+  table.feed(Draft{"goal", "x = 1 at 2"});  // before the answer
+  table.compile();
+  table.done(table.take("action/do"), {});
+  table.reach(0);
+  EXPECT_EQ(table.state.drafts.at("goal"), "x = 1 at 2");
+  perform(Act{"set k", Notice::Place::equations, "goal", "x = 1 at 2"});
+  EXPECT_TRUE(table.state.drafts.empty());
+}
+
 TEST(Update, AnswersToWhatNobodyWaitsForAreDropped) {
   Table table;
   table.open();

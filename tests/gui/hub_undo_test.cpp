@@ -50,8 +50,26 @@ TEST(Update, AnActAfterUndoCutsWhatCouldBeRedone) {
     table.acknowledge(table.take("motion/set"));
   }
   table.compile();
+  EXPECT_TRUE(can_redo(table.state));  // nor before it was performed
+  table.feed(Refused{table.take("action/do").number, "not so"});
+  EXPECT_TRUE(can_redo(table.state));
+  EXPECT_EQ(table.state.log.size(), 3U);
+  table.set();
   EXPECT_FALSE(can_redo(table.state));
-  EXPECT_EQ(table.state.log.size(), 1U);
+  EXPECT_EQ(table.state.log.size(), 2U);
+  EXPECT_EQ(text_of(table.state), "time\nset k\n");
+}
+
+TEST(Update, ARunAfterUndoCutsWhatCouldBeRedone) {
+  Table table;
+  table.open();
+  table.set();
+  table.reach(0);
+  table.feed(Undo{});
+  table.acknowledge(table.take("problem/load"));
+  table.acknowledge(table.take("motion/set"));
+  table.solve();
+  EXPECT_FALSE(can_redo(table.state));
 }
 
 TEST(Update, UndoDuringARunKeepsItsOutcomeToBeRedone) {
