@@ -78,11 +78,14 @@ TEST(Window, AControlPointIsDraggedWithTheFigure) {
   EXPECT_EQ(elbow(d.state().ghost->dofs), before);
   EXPECT_FALSE(d.state().running);
   d.save_picture("curves-dragging.png");
-  const auto followed = elbow(d.state().curves->dofs);
-  EXPECT_GT(followed[10], before[10]);
+  EXPECT_GT(elbow(d.state().curves->dofs)[10], before[10]);
   d.let_go();
   d.settle();
-  EXPECT_EQ(elbow(d.state().curves->dofs), followed);
+  const auto followed = elbow(d.state().curves->dofs);  // to where the mouse came to rest
+  EXPECT_GT(followed[10], before[10]);
+  auto others = followed;
+  others[10] = before[10];
+  EXPECT_EQ(others, before);
   ASSERT_EQ(d.state().present, present + 1);
   EXPECT_EQ(d.state().log.back().text.find("control arm.elbow 10 = "), 0U) << d.state().log.back().text;
   EXPECT_EQ(elbow(d.state().ghost->dofs), before);  // still: of the motion before
