@@ -42,7 +42,8 @@ void apply(State& state, const Act& event, Effects& effects);
 void apply(State& state, const RunScript& event, Effects& effects);
 void apply(State& state, const Pause& event, Effects& effects);
 void apply(State& state, const Continue& event, Effects& effects);
-void take_from_script(State& state);  // its first line, which is in the text now
+bool push_task(State& state, Task task);  // false, and told: so many wait already that it was dropped
+void take_from_script(State& state);      // its first line, which is in the text now
 void begin_task(State& state, Effects& effects);
 void compiled_task(State& state, const Compiled& event, Effects& effects);
 void compiled_base(State& state, const Compiled& event);

@@ -222,12 +222,13 @@ void Disk::act(const ReadFile& effect) {
     const std::string file = whole_name(effect.file);
     if (!file.ends_with(journal_extension)) {
       know(file);
-      return post_(FileRead{file, read_text(file)});
+      return post_(FileRead{file, read_text(file), effect.discard});
     }
     const Held held(file);
     if (!held) throw InputError("'" + file + "' cannot be opened, or another window has it");
     Restored restored = read_journal(read_text(file));
     restored.journal = effect.file;
+    restored.discard = effect.discard;
     // Whatever its file holds now that is not what the session knew was written by somebody else.
     if (!restored.file.empty()) {
       know(restored.file);
@@ -245,13 +246,13 @@ void Disk::act(const WriteFile& effect) {
     const Stamp there = file == watched_ ? changed(file) : std::nullopt;
     if (there && there != known_ && !effect.overwrite) {
       told_ = there;
-      return post_(FileChanged{effect.file, true});
+      return post_(FileChanged{effect.file, true, effect.number});
     }
     write_text(file, effect.text);
     know(file);
-    post_(FileWritten{file, effect.text});
+    post_(FileWritten{file, effect.text, effect.number});
   } catch (const std::exception& error) {
-    post_(FileFailed{effect.file, error.what()});
+    post_(FileFailed{effect.file, error.what(), effect.number});
   }
 }
 

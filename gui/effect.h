@@ -36,10 +36,12 @@ struct Cancel {  // of the optimizer
 };
 struct ReadFile {
   std::string file;
+  bool discard = false;  // as Open has it
 };
 struct WriteFile {
   std::string file, text;
   bool overwrite = false;  // even what others wrote since it was read
+  int number = 0;          // which its answer has as well
 };
 struct WatchFile {  // tells of changes by somebody else; empty: none
   std::string file;

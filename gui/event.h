@@ -16,9 +16,11 @@ namespace spacetime::gui {
 
 struct Open {  // a scene file, or a session's journal
   std::string file;
+  bool discard = false;  // what is not saved of the session that is left is not wanted any more
 };
 struct OpenText {  // an example or an empty scene: it has no file yet
   std::string text;
+  bool discard = false;
 };
 struct Save {
   std::string file;  // empty: where it was opened from
@@ -172,16 +174,20 @@ struct Filmed {
 };
 struct FileRead {
   std::string file, text;
+  bool discard = false;
 };
 struct FileFailed {
   std::string file, message;
+  int number = 0;  // of the WriteFile; 0: of none
 };
 struct FileWritten {
   std::string file, text;
+  int number = 0;
 };
 struct FileChanged {  // by somebody else
   std::string file;
   bool refused = false;  // it was to be written, and was not for that
+  int number = 0;
 };
 
 // What was kept on disk: settings at the start, sessions that ended without being saved, and one that is opened again.
@@ -199,6 +205,7 @@ struct Restored {  // entries with their texts alone in `scene`
   int present = 0;
   std::vector<std::string> script;
   std::vector<double> pins{};  // s, rising
+  bool discard = false;
 };
 
 using Event = std::variant<Open, OpenText, Save, Act, DropSession, RunScript, Stop, Pause, Continue, Undo, Redo, GoTo,

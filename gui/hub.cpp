@@ -167,7 +167,7 @@ void Hub::close(bool discard) {
   step(0);
   disk_->wait(longest_farewell);  // saving, most often
   step(0);
-  disk_->perform(JournalEnd{unsaved(state_) && !discard});
+  disk_->perform(JournalEnd{would_lose(state_) && !discard});
 }
 
 }  // namespace spacetime::gui

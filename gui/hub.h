@@ -39,7 +39,7 @@ class Hub {
   bool step(double seconds);
   const State& state() const { return state_; }
   // The window closes: what is being saved is waited for, some seconds at most, and the journal goes, unless something
-  // is unsaved and not to be thrown away.
+  // is unsaved or under way and not to be thrown away.
   void close(bool discard = false);
 
   // Everything so far stands in the journal: from here on a crash loses nothing of it.

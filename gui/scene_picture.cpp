@@ -201,6 +201,9 @@ Picture picture_of(const State& state, const Question& question, const Residuals
     Motion before = motion;
     before.dofs = state.ghost->dofs;
     before.parameters = state.ghost->parameters;
+    for (auto& [name, value] : before.constants)
+      for (const auto& [was, then] : state.ghost->constants)
+        if (was == name) value = then;
     add_ghost(before, time, 0.35F);
   }
   for (const double pin : state.pins)

@@ -1,5 +1,7 @@
 #include "gui/state.h"
 
+#include <algorithm>
+
 namespace spacetime::gui {
 
 std::string text_of(const State& state) { return state.scene ? state.scene->text : std::string(); }
@@ -11,6 +13,14 @@ std::string text_to_save(const State& state) {
 }
 
 bool unsaved(const State& state) { return state.scene && text_to_save(state) != state.saved; }
+
+bool is_typing(const State& state) {
+  return std::ranges::any_of(state.drafts, [](const auto& draft) { return !draft.second.empty(); });
+}
+
+bool under_way(const State& state) { return state.running || state.waiting > 0 || state.steering || is_typing(state); }
+
+bool would_lose(const State& state) { return unsaved(state) || under_way(state); }
 
 // What waits is dropped first; where a run goes on, undoing is leaving it.
 bool can_undo(const State& state) {

@@ -150,6 +150,7 @@ struct State {
   // Of all plots, of `curves` or shortly before: evenly over the time, and finer over the span that is shown.
   std::shared_ptr<const Samples> samples;
   Record record;      // of the run that goes on, or of the last one
+  int opened = 1;     // counts scenes; one that is read again from its file is the same
   long revision = 0;  // counts every change of `curves`
 
   // What goes on.
@@ -185,6 +186,11 @@ constexpr double same_time = 1e-6;  // s: pins and keys so near are one
 
 // The text is not what the file holds.
 bool unsaved(const State& state);
+bool is_typing(const State& state);  // a line in place
+// Something goes on, waits or is half typed, of which the text does not know yet.
+bool under_way(const State& state);
+// Leaving the scene now would lose something.
+bool would_lose(const State& state);
 bool can_undo(const State& state);
 bool can_redo(const State& state);
 // The run can be paused: not one of many starts, of which nothing is left before its end.

@@ -103,14 +103,18 @@ void drop_notices_of_acts(State& state) {
   std::erase_if(state.notices, [](const Notice& notice) { return notice.until == 0 && !notice.lasting; });
 }
 
+bool push_task(State& state, Task task) {
+  if (state.work.tasks.size() >= most_tasks) {
+    notify(state, {task.place, Severity::error, "So many acts wait already that this one was dropped.", task.about});
+    return false;
+  }
+  state.work.tasks.push_back(std::move(task));
+  return true;
+}
+
 void apply(State& state, const Act& event, Effects&) {
   drop_notices_of_acts(state);
-  Work& work = state.work;
-  if (work.tasks.size() >= most_tasks) {
-    notify(state, {event.place, Severity::error, "So many acts wait already that this one was dropped.", event.about});
-    return;
-  }
-  work.tasks.push_back({event.line, event.place, event.about, event.draft});
+  push_task(state, {event.line, event.place, event.about, event.draft});
 }
 
 void apply(State& state, const RunScript&, Effects&) {

@@ -87,9 +87,8 @@ void apply(State& state, const Steered& event, Effects& effects) {
   const bool begun = work.drag->begun, solves = work.drag->solves;
   leave_drag(state, effects);
   if (event.keep) {
-    work.tasks.push_back({.line = line, .place = Notice::Place::view});
-    if (!solves) return;
-    work.tasks.push_back({.line = "solve", .place = Notice::Place::view, .merge = true, .iterates = true});
+    if (!push_task(state, {.line = line, .place = Notice::Place::view}) || !solves) return;
+    push_task(state, {.line = "solve", .place = Notice::Place::view, .merge = true, .iterates = true});
   } else if (begun) {
     show(state, state.log[state.present]);
   }

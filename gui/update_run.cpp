@@ -45,6 +45,18 @@ void end_run(State& state) {
   state.stopping = work.unseen = work.discarded = work.pausing = work.whole = false;
 }
 
+// A record that is longer than can be drawn keeps its ends and every second of what lies between; what comes after is
+// kept as it comes, until it is too long once more.
+constexpr std::size_t most_records = 4096;
+
+void thin(std::vector<IterationRecord>& records) {
+  if (records.size() <= most_records) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < records.size(); ++i)
+    if (i % 2 == 0 || i + 1 == records.size()) std::swap(records[kept++], records[i]);
+  records.resize(kept);
+}
+
 // A run of which nothing is left: what it has shown goes, and the optimizer is led back to where the present entry is,
 // since nobody knows how far it has come.  Answers that were asked for beside the run may be of its iterates.
 void take_back_run(State& state) {
@@ -157,7 +169,7 @@ void apply(State& state, const Pause&, Effects& effects) {
 
 void apply(State& state, const Continue&, Effects&) {
   if (!can_continue(state) || state.waiting > 0) return;
-  state.work.tasks.push_back({.line = state.paused->line, .place = Place::optimisation});
+  push_task(state, {.line = state.paused->line, .place = Place::optimisation});
   state.work.scripting = state.paused->scripting && !state.script.empty();
 }
 
@@ -197,6 +209,7 @@ void apply(State& state, const Iterated& event, Effects& effects) {
   }
   if (!steered) {
     state.record.iterations.insert(state.record.iterations.end(), event.records.begin(), event.records.end());
+    thin(state.record.iterations);
     return;
   }
   work.drag->moved = true;
@@ -225,7 +238,8 @@ void apply(State& state, const Reached& event, Effects& effects) {
     entry->motion = event.motion;
     entry->checkpoint = event.checkpoint;
     // The run has gone on since the act: it has led here by so many iterations more.
-    if (const std::string iterations = joined(event.log); !iterations.empty() && entry == &state.log.back()) {
+    if (const std::string iterations = joined(event.log);
+        !iterations.empty() && entry == &state.log.back() && entry != &state.log.front()) {
       const Scene& before = *(entry - 1)->scene;
       entry->scene = appended(*entry->scene, iterations, {iterating_statement(trimmed(iterations))}, nullptr);
       entry->text += "\n" + trimmed(iterations);

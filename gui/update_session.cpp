@@ -16,8 +16,8 @@ using Place = Notice::Place;
 constexpr std::size_t most_recent = 12;
 
 // Nothing of the session before is left but how it is looked at.
-void begin(State& state, std::string file, std::string saved, Effects& effects) {
-  if (!state.log.empty()) effects.push_back(JournalEnd{unsaved(state)});
+void begin(State& state, std::string file, std::string saved, bool discard, Effects& effects) {
+  if (!state.log.empty()) effects.push_back(JournalEnd{would_lose(state) && !discard});
   if (state.work.run) effects.push_back(Cancel{state.work.run});
   if (state.work.drag && state.work.drag->run) effects.push_back(Cancel{state.work.drag->run});
   State next;
@@ -35,6 +35,7 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
   next.playback.time = 0;
   next.playback.playing = false;
   next.revision = state.revision + 1;
+  next.opened = state.opened + 1;
   next.work.last = state.work.last;
   next.work.entries = state.work.entries;
   for (const Notice& notice : state.notices)  // of daemons that are lost
@@ -43,10 +44,24 @@ void begin(State& state, std::string file, std::string saved, Effects& effects) 
   effects.push_back(WatchFile{state.file});
 }
 
-void open_text(State& state, std::string file, std::string text, Effects& effects) {
-  begin(state, file, text, effects);
+void open_text(State& state, std::string file, std::string text, bool discard, Effects& effects) {
+  begin(state, file, text, discard, effects);
   state.work.opening = text;
   ask_compile(state, effects, std::move(text), {Kind::open_whole});
+}
+
+// A file that was read once more, as an editor beside the window has it, is looked at as it was before.
+void look_as_before(State& state, const State& before, bool discard) {
+  state.work.again = true;
+  state.opened = before.opened;
+  state.selection = before.selection;
+  state.pins = before.pins;
+  state.span = before.span;
+  state.playback.time = before.playback.time;
+  if (!discard) state.drafts = before.drafts;
+  state.copied = before.copied;
+  state.console = before.console;
+  std::erase_if(state.console, &ConsoleLine::waiting);
 }
 
 void remember(State& state, const std::string& file, Effects& effects) {
@@ -54,6 +69,14 @@ void remember(State& state, const std::string& file, Effects& effects) {
   state.recent.insert(state.recent.begin(), file);
   if (state.recent.size() > most_recent) state.recent.resize(most_recent);
   effects.push_back(KeepSettings{state.dark, state.recent});
+}
+
+// Whether it is the last save that is answered; it is not awaited any more then.
+bool answer_save(State& state, int number) {
+  if (number == 0 || number != state.work.saving) return false;
+  state.work.saving = 0;
+  state.saving.clear();
+  return true;
 }
 
 // Where an action's line begins: the spaces before it belong to it.
@@ -101,11 +124,17 @@ void begin_log(State& state, std::shared_ptr<const Scene> scene, Effects& effect
   state.present = 0;
   if (!scene->problem) return;
   state.script = std::move(work.script);
-  state.playback.time = scene->problem->start;
-  select_first(state, scene->problem->dofs);
+  const Problem& problem = *scene->problem;
+  std::erase_if(state.selection.dofs, [&](const std::string& name) {
+    return std::ranges::none_of(problem.dofs, [&](const auto& dof) { return dof.name == name; });
+  });
+  if (state.selection.dofs.empty() && state.selection.expressions.empty()) select_first(state, problem.dofs);
+  const bool again = std::exchange(work.again, false);
+  state.playback.time = again ? std::clamp(state.playback.time, problem.start, problem.end) : problem.start;
   load_anew(state, state.log.front(), effects);
   effects.push_back(JournalBegin{});
   effects.push_back(JournalLine{journal_begin(state)});
+  if (!state.pins.empty()) effects.push_back(JournalLine{journal_pins(state)});
 }
 
 }  // namespace
@@ -123,13 +152,18 @@ void load_anew(State& state, const Entry& entry, Effects& effects) {
   ask_motion(state, effects, {Kind::checkpoint, entry.number});
 }
 
-void apply(State&, const Open& event, Effects& effects) { effects.push_back(ReadFile{event.file}); }
+void apply(State&, const Open& event, Effects& effects) { effects.push_back(ReadFile{event.file, event.discard}); }
 
-void apply(State& state, const OpenText& event, Effects& effects) { open_text(state, "", event.text, effects); }
+void apply(State& state, const OpenText& event, Effects& effects) {
+  open_text(state, "", event.text, event.discard, effects);
+}
 
 void apply(State& state, const Film& event, Effects& effects) {
   if (state.film) return;  // one at a time
-  if (state.present < 0 || !state.log[state.present].checkpoint)
+  if (state.running || state.steering)
+    return notify(state, {Place::status, Severity::warning, "The motion is still changing: make pictures of it then."});
+  const auto checkpoint = state.present < 0 ? nullptr : state.log[state.present].checkpoint;
+  if (!checkpoint || checkpoint->empty())  // empty: of a scene that the optimizer could not take
     return notify(state, {Place::status, Severity::warning, "There is no motion to make pictures of yet."});
   state.film = {event.file, ""};
   const Entry& entry = state.log[state.present];
@@ -154,20 +188,21 @@ void apply(State& state, const Filmed& event, Effects&) {
 }
 
 void apply(State& state, const FileRead& event, Effects& effects) {
-  open_text(state, event.file, event.text, effects);
+  const State before = state;
+  open_text(state, event.file, event.text, event.discard, effects);
+  if (event.file == before.file) look_as_before(state, before, event.discard);
   remember(state, event.file, effects);
 }
 
 void apply(State& state, const FileFailed& event, Effects&) {
-  if (event.file == state.saving) state.saving.clear();
+  answer_save(state, event.number);
   notify(state, {.severity = Severity::error, .text = event.message, .about = event.file, .lasting = true});
 }
 
 // A scene with mistakes, or one in which nothing was done, follows its file.
 void apply(State& state, const FileChanged& event, Effects& effects) {
   if (event.refused) {
-    state.work.overwrite = event.file;
-    state.saving.clear();
+    if (answer_save(state, event.number)) state.work.overwrite = event.file;
     return notify(state, {.severity = Severity::warning,
                           .text = "Not saved: '" + event.file +
                                   "' was changed by another program since it was read. Save once more to replace "
@@ -195,15 +230,17 @@ void apply(State& state, const Save& event, Effects& effects) {
   }
   const bool overwrite = std::exchange(state.work.overwrite, {}) == file;
   state.saving = file;
-  effects.push_back(WriteFile{file, text_to_save(state), overwrite});
+  state.work.saving = ++state.work.last;
+  effects.push_back(WriteFile{file, text_to_save(state), overwrite, state.work.saving});
 }
 
 void apply(State& state, const FileWritten& event, Effects& effects) {
+  // Of the scene before this one, or with another save behind it, which tells what this scene's file is.
+  if (!answer_save(state, event.number)) return remember(state, event.file, effects);
   // Whatever was told of files was about this one, or one that matters no more.
   std::erase_if(state.notices, [](const Notice& notice) { return notice.lasting && !notice.about.empty(); });
   state.file = event.file;
   state.saved = event.text;
-  state.saving.clear();
   remark(state, fs::path(event.file).filename().string() + " is saved.");
   effects.push_back(JournalLine{journal_saved(state)});
   effects.push_back(WatchFile{event.file});
@@ -218,7 +255,7 @@ void apply(State& state, const SettingsRead& event, Effects&) {
 void apply(State& state, const SessionsFound& event, Effects&) { state.left = event.left; }
 
 void apply(State& state, const Restored& event, Effects& effects) {
-  begin(state, event.file, event.saved, effects);
+  begin(state, event.file, event.saved, event.discard, effects);
   std::erase_if(state.left, [&](const LeftBehind& one) { return one.journal == event.journal; });
   Work& work = state.work;
   state.log = event.log;

@@ -66,6 +66,7 @@ struct Work {
   std::optional<std::string> opening;  // the text; acts wait until it is open
   std::string head;
   std::vector<std::string> script;
+  bool again = false;  // the same file was read once more: it is looked at as before
 
   // Acting.
   std::deque<Task> tasks;
@@ -119,6 +120,7 @@ struct Work {
   };
   std::optional<Drag> drag;
 
+  int saving = 0;         // number of the last WriteFile that is not answered; 0: none
   std::string overwrite;  // the file that others changed, of which was told: saving again replaces it
 
   // Samples.

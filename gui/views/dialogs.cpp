@@ -56,12 +56,17 @@ void draw_left_behind(Ui& ui) {
   ImGui::PopFont();
   for (const LeftBehind& left : ui.state.left) {
     const std::string name = name_of(left);
-    if (ImGui::Selectable(fmt::format("Go on with {}##{}", name, left.journal).c_str())) {
+    const float room = ImGui::CalcTextSize("Forget it").x + 3 * ImGui::GetStyle().FramePadding.x;
+    const ImVec2 size{ImGui::GetContentRegionAvail().x - room, 0};
+    if (ImGui::Selectable(fmt::format("Go on with {}##{}", name, left.journal).c_str(), false, 0, size)) {
       leave_for(ui, {Leaving::To::file, left.journal});
       ui.memory.welcome = false;
       ImGui::CloseCurrentPopup();
     }
     ui.control("recover " + name, "Everything that was done in it comes back, undo included.");
+    ImGui::SameLine();
+    if (ImGui::SmallButton(("Forget it##" + left.journal).c_str())) ui.emit(DropSession{left.journal});
+    ui.control("forget " + name, "What was not saved in it is thrown away for good.");
   }
   ImGui::Spacing();
 }
@@ -175,20 +180,21 @@ void draw_shortcuts(Ui& ui) {
   ImGui::EndPopup();
 }
 
-void go(Ui& ui, const Leaving& leaving) {
+void go(Ui& ui, const Leaving& leaving, bool discard) {
   ui.memory.leaving.reset();
   switch (leaving.to) {
     case Leaving::To::quit:
+      ui.memory.discard = discard;
       ui.memory.quit = true;
       return;
     case Leaving::To::file:
-      return ui.emit(Open{leaving.file});
+      return ui.emit(Open{leaving.file, discard});
     case Leaving::To::fresh:
-      return ui.emit(OpenText{std::string(new_scene)});
+      return ui.emit(OpenText{std::string(new_scene), discard});
     case Leaving::To::example:
       // A copy without a file of its own: saving asks for one, and the example stays as it is.
       try {
-        ui.emit(OpenText{read_text(leaving.file)});
+        ui.emit(OpenText{read_text(leaving.file), discard});
       } catch (const InputError& error) {
         ui.emit(FileFailed{leaving.file, error.what()});
       }
@@ -196,13 +202,33 @@ void go(Ui& ui, const Leaving& leaving) {
 }
 
 // What was to come after saving comes when that is done, and not where it could not be done: the status line says why.
+// A run is stopped first, so that its outcome is saved as well; where something else goes on by then it is asked again.
 void go_on_after_saving(Ui& ui) {
-  const auto& leaving = ui.memory.leaving;
-  if (!leaving || leaving->stage != Leaving::Stage::saving || !ui.state.saving.empty()) return;
-  if (unsaved(ui.state))
-    ui.memory.leaving.reset();
-  else
-    go(ui, Leaving(*leaving));
+  auto& leaving = ui.memory.leaving;
+  if (!leaving) return;
+  const bool busy = ui.state.running || ui.state.waiting > 0;
+  if (leaving->stage == Leaving::Stage::stopping && !busy) {
+    ui.emit(Save{});
+    leaving->stage = Leaving::Stage::saving;
+  } else if (leaving->stage == Leaving::Stage::saving && ui.state.saving.empty()) {
+    if (busy)
+      leaving->stage = Leaving::Stage::asking;
+    else if (unsaved(ui.state))
+      leaving.reset();
+    else
+      go(ui, Leaving(*leaving), false);
+  }
+}
+
+// Of what would be lost, in the order of its weight.
+void say_what_would_be_lost(const State& state) {
+  const std::string name = state.file.empty() ? "This scene" : std::string(fs::path(state.file).filename());
+  if (state.running)
+    ImGui::TextUnformatted("A run goes on: what it has found so far would be lost.");
+  else if (state.waiting > 0 || state.steering)
+    ImGui::TextUnformatted("What was done last is not finished, and would be lost.");
+  if (is_typing(state)) ImGui::TextUnformatted("A line that is being typed and was not applied would be lost.");
+  if (unsaved(state)) ImGui::Text("%s has changes that are not saved.", name.c_str());
 }
 
 void draw_guard(Ui& ui) {
@@ -210,26 +236,24 @@ void draw_guard(Ui& ui) {
   if (!ImGui::IsPopupOpen("Unsaved changes")) ImGui::OpenPopup("Unsaved changes");
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal("Unsaved changes", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  const std::string name = ui.state.file.empty() ? "This scene" : std::string(fs::path(ui.state.file).filename());
-  ImGui::Text("%s has changes that are not saved.", name.c_str());
+  say_what_would_be_lost(ui.state);
   ImGui::Spacing();
   const Leaving next = *ui.memory.leaving;
   if (ImGui::Button("Save", {ui.scaled(110), 0})) {
+    if (ui.state.running) ui.emit(Stop{});
     if (ui.state.file.empty()) {
       ui.memory.files.dialog = FilesMemory::Dialog::save;
       ui.memory.leaving->stage = Leaving::Stage::naming;
     } else {
-      ui.emit(Save{});
-      ui.memory.leaving->stage = Leaving::Stage::saving;
+      ui.memory.leaving->stage = Leaving::Stage::stopping;
     }
     ImGui::CloseCurrentPopup();
   }
-  ui.control("guard save", "Save first, then go on.");
+  ui.control("guard save", "Stop what runs, save, then go on.");
   ImGui::SameLine();
   const bool quits = next.to == Leaving::To::quit;
   if (ImGui::Button(quits ? "Discard and quit" : "Discard them", {ui.scaled(130), 0})) {
-    ui.memory.discard = quits;
-    go(ui, next);
+    go(ui, next, true);
     ImGui::CloseCurrentPopup();
   }
   ui.control("guard discard", "Go on without saving: the changes are lost.");
@@ -257,8 +281,7 @@ std::string examples_folder() {
 }
 
 void leave_for(Ui& ui, Leaving leaving) {
-  ui.memory.discard = false;
-  if (!unsaved(ui.state)) return go(ui, leaving);
+  if (!would_lose(ui.state)) return go(ui, leaving, false);
   ui.memory.leaving = std::move(leaving);
 }
 

@@ -90,6 +90,7 @@ std::string film_fault(const Ui& ui) {
   const FilesMemory& m = ui.memory.files;
   const Problem& problem = *ui.state.scene->problem;
   const auto usable = [](int edge) { return edge >= 16 && edge <= most_edge; };
+  if (ui.state.running || ui.state.steering) return "The motion is still changing: wait for it, or stop the run.";
   if (!film_kind(m.name)) return "Name it film.mp4, strip.png, or frames/%04d.png.";
   if (!usable(m.size[0]) || !usable(m.size[1]))
     return fmt::format("Each edge of a picture has from 16 to {} pixels.", most_edge);

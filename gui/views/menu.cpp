@@ -108,8 +108,8 @@ void draw_file_menu(Ui& ui) {
     save(ui);
   if (entry(ui, {"Save as...", nullptr, there}, "Write it under another name.")) dialog = Dialog::save;
   ImGui::Separator();
-  if (entry(ui, {"Make a film or pictures...", nullptr, s.curves != nullptr && !s.film},
-            "Of the motion shown, into files, while the window goes on."))
+  if (entry(ui, {"Make a film or pictures...", nullptr, s.curves != nullptr && !s.film && !s.running && !s.steering},
+            "Of the motion shown, into files, while the window goes on; not while a run or a drag changes it."))
     dialog = Dialog::film;
   ImGui::Separator();
   if (entry(ui, {"Quit", "Ctrl+Q"}, "Close the window; asks about what is not saved.")) leave_for(ui, {});

@@ -84,8 +84,8 @@ void look(Ui& ui, const Figures& figures, const glm::vec2& size) {
   const State& s = ui.state;
   SceneMemory& m = ui.memory.scene;
   const Motion motion = motion_of(s, false);
-  if (!s.log.empty() && m.framed_for != s.log.front().number) {
-    m.framed_for = s.log.front().number;
+  if (!s.log.empty() && m.framed_for != s.opened) {
+    m.framed_for = s.opened;
     m.framed = false;
     m.camera = SceneMemory().camera;  // whatever the scene before was looked at from
     if (!planar(figures.bounds(motion))) m.camera = looking(View::free, m.camera);

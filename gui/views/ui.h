@@ -40,7 +40,7 @@ struct CurvesMemory {
 struct SceneMemory {
   Camera camera{.pitch = 0.12F};  // a little from above, so that the ground is seen
   bool framed = false;            // the camera has been put in front of the scene
-  int framed_for = 0;             // number of the log's first entry
+  int framed_for = 0;             // State::opened
   float ground = 0;               // m, under the lowest that the figure has come since
   long grounded = -1;             // State::revision
   bool trails = true, ghosts = true, forces = false, marks = true, legend = true;
@@ -94,7 +94,8 @@ struct Leaving {
   enum class Stage {
     asking,
     naming,  // the file that it is to be saved in
-    saving,  // goes on when that is done
+    stopping,  // the run, whose outcome is to be saved
+    saving,    // goes on when that is done
   } stage = Stage::asking;
 };
 

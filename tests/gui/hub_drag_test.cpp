@@ -115,5 +115,16 @@ TEST(Update, ADraggedControlPointCanBeLetBack) {
   EXPECT_EQ(table.count("motion/set"), 1);
 }
 
+TEST(Update, DragsDoNotPileUpWhereNobodyAnswers) {
+  Table table;
+  table.open();
+  for (int i = 0; i < 200; ++i) {
+    const Words words = set_words("k", i);
+    table.feed(Steer{{words.line, {words.action}}});
+    table.feed(Steered{true});
+  }
+  EXPECT_LE(table.state.work.tasks.size(), 64U);
+}
+
 }  // namespace
 }  // namespace spacetime::gui

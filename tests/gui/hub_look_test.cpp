@@ -25,16 +25,160 @@ TEST(Update, WhatIsToldOfFilesAndDaemonsOutlivesActs) {
   // Saving is refused once.
   table.feed(Save{});
   EXPECT_FALSE(std::get<WriteFile>(table.others.back()).overwrite);
-  table.feed(FileChanged{"/a.scene", true});
+  table.feed(FileChanged{"/a.scene", true, std::get<WriteFile>(table.others.back()).number});
   EXPECT_EQ(table.state.notices.size(), 3U);
   table.feed(Save{});
   EXPECT_TRUE(std::get<WriteFile>(table.others.back()).overwrite);
-  table.feed(FileWritten{"/a.scene", text_of(table.state)});
+  table.feed(FileWritten{"/a.scene", text_of(table.state), std::get<WriteFile>(table.others.back()).number});
   ASSERT_EQ(table.state.notices.size(), 2U);
   EXPECT_TRUE(table.state.notices[0].lasting);  // the daemon is lost still
   EXPECT_EQ(table.state.notices[1].text, "a.scene is saved.");
   table.feed(Save{});
   EXPECT_FALSE(std::get<WriteFile>(table.others.back()).overwrite);
+}
+
+// A table with a scene of a file.
+Table of_file(const std::string& file) {
+  Table table;
+  table.feed(FileRead{file, "time\n"});
+  table.compile();
+  table.acknowledge(table.take("problem/load"));
+  table.reach(0);
+  return table;
+}
+
+template <typename Which>
+const Which* newest(const Table& table) {
+  const Which* found = nullptr;
+  for (const Effect& effect : table.others)
+    if (const auto* which = std::get_if<Which>(&effect)) found = which;
+  return found;
+}
+
+TEST(Update, ASaveThatIsAnsweredLateNamesNoOtherScene) {
+  Table table = of_file("/a.scene");
+  table.set();
+  table.reach(0);
+  table.feed(Save{});
+  const int first = newest<WriteFile>(table)->number;
+  table.feed(Save{"/b.scene"});
+  const int second = newest<WriteFile>(table)->number;
+  table.feed(FileWritten{"/a.scene", "time\nset k\n", first});
+  EXPECT_EQ(table.state.saving, "/b.scene");  // the other is still awaited
+  table.feed(OpenText{"time\n"});
+  table.compile();
+  table.feed(FileWritten{"/b.scene", "time\nset k\n", second});
+  EXPECT_EQ(table.state.file, "");
+  EXPECT_EQ(table.state.saved, "time\n");
+  EXPECT_EQ(table.state.recent.front(), "/b.scene");
+}
+
+TEST(Update, WhatIsDiscardedLeavesNoJournal) {
+  for (const bool discard : {false, true}) {
+    Table table = of_file("/a.scene");
+    table.set();
+    table.reach(0);
+    table.feed(OpenText{"time\n", discard});
+    ASSERT_TRUE(newest<JournalEnd>(table));
+    EXPECT_EQ(newest<JournalEnd>(table)->keep, !discard);
+    Table other = of_file("/a.scene");
+    other.set();
+    other.reach(0);
+    other.feed(Open{"/b.scene", discard});
+    EXPECT_EQ(newest<ReadFile>(other)->discard, discard);
+    other.feed(FileRead{"/b.scene", "time\n", discard});
+    EXPECT_EQ(newest<JournalEnd>(other)->keep, !discard);
+  }
+}
+
+TEST(Update, WhatGoesOnWouldBeLostByLeaving) {
+  Table table = of_file("/a.scene");
+  EXPECT_FALSE(would_lose(table.state));
+  table.feed(Draft{"goal", "x = 1"});
+  EXPECT_TRUE(would_lose(table.state));
+  table.feed(Draft{"goal", std::nullopt});
+  EXPECT_FALSE(would_lose(table.state));
+  table.feed(Act{"solve"});
+  EXPECT_TRUE(would_lose(table.state));
+  table.compile();
+  EXPECT_TRUE(table.state.running);
+  EXPECT_FALSE(unsaved(table.state));
+  EXPECT_TRUE(would_lose(table.state));
+}
+
+// As an editor beside the window has it, which writes the file again and again.
+TEST(Update, AFileThatIsReadAgainIsLookedAtAsBefore) {
+  Table table = of_file("/a.scene");
+  const int opened = table.state.opened;
+  Selection selection;
+  selection.expressions = {"x'"};
+  table.feed(Select{selection});
+  table.feed(Pin{0, true});
+  table.feed(ShowSpan{0.25, 0.5});
+  table.feed(Draft{"goal", "x = 1"});
+  const auto read = [&](const std::string& file) {
+    table.feed(FileRead{file, "time\ntime\n"});
+    table.compile();
+  };
+  read("/a.scene");
+  EXPECT_EQ(table.state.selection.expressions, selection.expressions);
+  EXPECT_EQ(table.state.pins, std::vector<double>{0});
+  EXPECT_NE(std::get<JournalLine>(table.others.back()).json.find("pins"), std::string::npos);
+  EXPECT_EQ(table.state.span, std::pair(0.25, 0.5));
+  EXPECT_EQ(table.state.drafts.at("goal"), "x = 1");
+  EXPECT_EQ(table.state.opened, opened);
+  read("/b.scene");
+  EXPECT_TRUE(table.state.selection.expressions.empty());
+  EXPECT_TRUE(table.state.pins.empty());
+  EXPECT_TRUE(table.state.drafts.empty());
+  EXPECT_NE(table.state.opened, opened);
+}
+
+TEST(Update, PicturesAreMadeOfAMotionThatIsShown) {
+  Table table = of_file("/a.scene");
+  const Request run = table.solve();
+  table.feed(Film{"a.mp4"});
+  EXPECT_FALSE(newest<MakeFilm>(table));  // it would be of the motion before
+  EXPECT_FALSE(table.state.notices.empty());
+  table.done(run, {{run.params.substr(9), "solve"}}, true);
+  table.reach(3);
+  table.feed(Film{"a.mp4"});
+  EXPECT_TRUE(newest<MakeFilm>(table));
+
+  Table written;  // the optimizer cannot take it yet
+  written.feed(OpenText{"time\n"});
+  written.compile();
+  written.feed(Refused{written.take("problem/load").number, "nothing moves"});
+  written.feed(Film{"a.mp4"});
+  EXPECT_FALSE(newest<MakeFilm>(written));
+}
+
+TEST(Update, ALongRecordIsThinned) {
+  Table table;
+  table.open();
+  const Request run = table.solve();
+  for (int i = 1; i <= 20000; ++i) {
+    IterationRecord record;
+    record.iteration = i;
+    table.feed(Iterated{run.number, {record}, {}, {}});
+  }
+  const auto& records = table.state.record.iterations;
+  EXPECT_LE(records.size(), 4096U);
+  EXPECT_GE(records.size(), 2000U);
+  EXPECT_EQ(table.state.record.made(), 20000);
+  EXPECT_TRUE(std::ranges::is_sorted(records, std::less_equal{}, &IterationRecord::iteration));
+}
+
+// A daemon's answer that no request could have had.
+TEST(Update, IterationsBeforeTheFirstEntryAreNoPartOfIt) {
+  Table table;
+  table.feed(OpenText{"time\n"});
+  table.compile();
+  table.feed(Reached{table.take("motion/get").number,
+                     std::make_shared<Motion>(),
+                     std::make_shared<std::string>("{}"),
+                     {{R"({"action":"iterate","iterations":2})", "iterate 2"}}});
+  EXPECT_EQ(text_of(table.state), "time\n");
 }
 
 TEST(Update, ASamplesAnswerIsAwaitedBeforeTheNextIsAsked) {

@@ -131,6 +131,7 @@ TEST(Window, GhostsArePinnedAndClickedAway) {
 TEST(Window, ARunIsPausedAndContinued) {
   Driver d(daemons(), 1280, 800);
   open_throw(d);
+  d.hub().post(gui::SetPace{20});  // so that there is time to pause it
   d.hub().post(gui::Act{"solve method sqp92 iterations 1000000000 tolerance 1e-300"});
   d.until([](const gui::State& s) { return s.record.iterations.size() > 3; }, "iterations");
   d.save_picture("pause-1-running.png");
