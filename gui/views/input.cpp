@@ -19,6 +19,14 @@ void Input::key(int glfw_key, bool down, int glfw_modifiers) {
 
 void Input::character(unsigned code) { changes_.push_back({Change::Kind::character, static_cast<int>(code)}); }
 
+namespace {
+
+bool makes_letter(int key, int modifiers) {
+  return key < GLFW_KEY_ESCAPE && (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
+}
+
+}  // namespace
+
 void Input::give(ImGuiIO& io, const ImVec2& mouse) {
   std::vector<Change> given;
   int modifiers = 0;
@@ -26,6 +34,9 @@ void Input::give(ImGuiIO& io, const ImVec2& mouse) {
   for (; !changes_.empty(); changes_.pop_front()) {
     const Change& next = changes_.front();
     const bool key = next.kind == Change::Kind::key, button = next.kind == Change::Kind::button;
+    // A text field wants the letters alone; with their keys one could not type faster than frames are drawn.
+    const bool only_letter = key && io.WantTextInput && makes_letter(next.which, next.modifiers);
+    if (only_letter && !keys_[static_cast<std::size_t>(next.which)]) continue;
     // ImGui takes what is typed in a frame before the keys that were pressed in it.
     const auto stands_before = [&](const Change& one) {
       if (!key && !button) return one.kind == Change::Kind::key && one.down;
