@@ -55,10 +55,14 @@ void Filming::perform(const MakeFilm& effect) {
     making = makings_.erase(making);
   }
   Making& making = makings_.emplace_back();
-  const std::string beside = std::filesystem::temp_directory_path() / fmt::format("spacetime-{}-{}", getpid(), ++made_);
-  making.thread = std::thread([this, &making, effect, beside] {
-    make(making, effect, beside);
+  const std::string name = fmt::format("spacetime-{}-{}", getpid(), ++made_);
+  making.thread = std::thread([this, &making, effect, name] {
     std::error_code none;
+    const std::string beside = std::filesystem::temp_directory_path(none) / name;
+    if (none)
+      tell(making, {effect.film.file, "there is no folder for temporary files: TMPDIR", Filmed::What::failed});
+    else
+      make(making, effect, beside);
     std::filesystem::remove(motion_file(beside), none);
     std::filesystem::remove(problem_file(beside), none);
     making.over = true;
@@ -80,7 +84,8 @@ void Filming::make(Making& making, const MakeFilm& effect, const std::string& be
   } catch (const InputError& error) {
     return tell(making, {film.file, error.what(), Filmed::What::failed});
   }
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "spacetime-gui";
+  std::error_code unknown;  // the program is not started then, and says so
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path() / "spacetime-gui";
   std::vector<std::string> words{self,      "render",  motion_file(beside),           "-o",
                                  film.file, "--theme", effect.dark ? "dark" : "light"};
   if (effect.problem) words.push_back("--problem=" + problem_file(beside));

@@ -5,7 +5,6 @@
 #include <map>
 #include <set>
 
-#include "common/diagnostic.h"
 #include "gui/inverse_kinematics.h"
 
 namespace spacetime::gui {
@@ -13,14 +12,9 @@ namespace {
 
 constexpr double instant = 1.0 / 60;  // s: so near to a time at which something has to hold, it is in force
 
-bool in_force(const Equation& equation, const Problem& problem, const Question& question, const Basis& basis,
+bool in_force(const Equation& equation, const Problem& problem, const Question& question, const Curves& curves,
               double time) {
-  std::vector<double> times;
-  try {
-    times = times_of(equation.scope, problem, question.constants, basis);
-  } catch (const InputError&) {
-    return false;  // a scope that a constant has made impossible has no instances
-  }
+  const std::vector<double> times = times_of(equation.scope, problem, question.constants, curves.dofs);
   if (times.empty()) return false;
   if (equation.scope.kind != Scope::Kind::times)
     return time >= times.front() - instant && time <= times.back() + instant;
@@ -56,15 +50,13 @@ std::vector<Hold> holds_at(const Question& question, const Problem& problem, con
   std::map<std::string, std::vector<const Solid*>> drawn;  // by creature
   for (const Solid& solid : picture.solids)
     if (solid.id >= 0 && solid.layer == 0) drawn[creature_of(figures.name(solid.id))].push_back(&solid);
-  const auto knots = [](const Trajectory& dof) { return dof.basis.knots.size(); };
-  const Basis& basis = std::ranges::max(curves.dofs, {}, knots).basis;
   for (const Equation& equation : question.equations) {
     const auto program = problem.programs.find(equation.program);
     const bool ties = !equation.objective && equation.enabled && program != problem.programs.end() &&
                       equation.relation == Constraint::Relation::equal;
     if (!ties) continue;
     const DofsByCreature tied = dofs_of(program->second);
-    if (tied.size() < 2 || !in_force(equation, problem, question, basis, time)) continue;
+    if (tied.size() < 2 || !in_force(equation, problem, question, curves, time)) continue;
     for (const auto& [one, unused] : tied) {
       if (drawn[one].size() != 1) continue;
       const Solid& held = *drawn[one].front();

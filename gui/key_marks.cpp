@@ -7,8 +7,6 @@
 #include "common/bspline.h"
 #include "gui/question.h"
 #include "gui/words.h"
-#include "protocol/action_json.h"
-#include "protocol/json.h"
 
 namespace spacetime::gui {
 namespace {
@@ -42,13 +40,12 @@ class Walk {
       }
   }
 
-  void entry(const Entry& entry, const Motion* before) {
+  void entry(const Entry& entry, const std::vector<std::optional<Action>>& actions, const Motion* before) {
     const bool solved_last = iterates(trimmed(entry.text.substr(entry.text.rfind('\n') + 1)));
     if (entry.iterated && !solved_last) settle();
     std::vector<KeyMark> fresh;
     std::map<std::string, std::vector<double>> released;
-    for (const std::string& text : entry.actions) {
-      const auto action = action_of(text);
+    for (const std::optional<Action>& action : actions) {
       if (!action || !keeps_shape(*action)) settle();
       const auto* pull = action ? std::get_if<PullKeys>(&*action) : nullptr;
       auto mark = pull ? mark_of(pull->time, pull->keys) : std::nullopt;
@@ -74,14 +71,6 @@ class Walk {
   }
 
  private:
-  static std::optional<Action> action_of(const std::string& text) {
-    try {
-      const Json json = parse(text, "action");
-      return action_from(Node(json, "action")).action;
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
-  }
   static bool same_dofs(const KeyMark& a, const KeyMark& b) {
     return std::ranges::equal(
         a.held, b.held, {}, [](const auto& x) { return x.first; }, [](const auto& x) { return x.first; });
@@ -131,12 +120,13 @@ class Walk {
 
 }  // namespace
 
-std::vector<KeyMark> key_marks(const State& state, const std::map<std::string, double>& constants) {
+std::vector<KeyMark> key_marks(const State& state, const ReadActions& actions,
+                               const std::map<std::string, double>& constants) {
   if (!state.scene || !state.scene->problem) return {};
   Walk walk(*state.scene->problem, constants);
   for (int i = 1; i <= state.present; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    walk.entry(state.log[index], state.log[index - 1].motion.get());
+    walk.entry(state.log[index], actions[index], state.log[index - 1].motion.get());
   }
   return walk.take();
 }

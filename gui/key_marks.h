@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/action.h"
 #include "common/problem.h"
 #include "gui/state.h"
 
@@ -21,8 +23,13 @@ struct KeyMark {
   std::map<std::string, std::vector<double>> added{};
 };
 
+// What each entry up to the present one asked of the optimizer, as it was read from the log; nothing in place of what a
+// newer version of this program wrote.
+using ReadActions = std::vector<std::vector<std::optional<Action>>>;
+
 // Of the present entry.
-std::vector<KeyMark> key_marks(const State& state, const std::map<std::string, double>& constants);
+std::vector<KeyMark> key_marks(const State& state, const ReadActions& actions,
+                               const std::map<std::string, double>& constants);
 
 // The keys with which the motion is pulled back to where it would be without this one.
 std::vector<std::pair<std::string, double>> without(const KeyMark& mark, const Motion& motion);

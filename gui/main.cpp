@@ -1,5 +1,6 @@
 // spacetime-gui: the window in which motions are made, and pictures of them without one.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 #include "common/diagnostic.h"
@@ -23,6 +24,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const spacetime::InputError& error) {
+    std::cerr << "spacetime-gui: error: " << error.what() << '\n';
+  } catch (const std::filesystem::filesystem_error& error) {
     std::cerr << "spacetime-gui: error: " << error.what() << '\n';
   }
   return 1;

@@ -135,6 +135,22 @@ class Asking {
   Question out_;
 };
 
+ReadActions read_actions(const State& state) {
+  ReadActions out(static_cast<std::size_t>(std::max(0, state.present + 1)));
+  for (std::size_t entry = 1; entry < out.size(); ++entry) {
+    for (const std::string& text : state.log[entry].actions) {
+      out[entry].emplace_back();
+      try {
+        const Json json = parse(text, "action");
+        out[entry].back() = action_from(Node(json, "action")).action;
+      } catch (const InputError&) {
+        // The optimizer has understood it, so a newer version of this program will.
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string creature_of(const std::string& name) { return name.substr(0, name.find('.')); }
@@ -156,18 +172,12 @@ Question question_of(const State& state) {
   if (!state.scene || !state.scene->problem) return {};
   Asking asking(*state.scene->problem);
   // The problem may be of an earlier text: actions that declare nothing leave it as it is.  The log has them all.
-  for (int entry = 1; entry <= state.present; ++entry) {
-    for (const std::string& action : state.log[static_cast<std::size_t>(entry)].actions) {
-      const Json json = Json::parse(action, nullptr, false);
-      try {
-        asking.after(action_from(Node(json, "action")).action);
-      } catch (const InputError&) {
-        // The optimizer has understood it, so a newer version of this program will.
-      }
-    }
-  }
+  const ReadActions actions = read_actions(state);
+  for (std::size_t entry = 1; entry < actions.size(); ++entry)
+    for (const std::optional<Action>& action : actions[entry])
+      if (action) asking.after(*action);
   Question question = asking.take();
-  question.keys = key_marks(state, question.constants);
+  question.keys = key_marks(state, actions, question.constants);
   for (Equation& equation : question.equations) {
     equation.named = is_given(equation.name);
     const auto statement =
@@ -207,9 +217,17 @@ std::string scope_text(const Equation& equation, const Problem& problem, const s
 }
 
 std::vector<double> times_of(const Scope& scope, const Problem& problem, const std::map<std::string, double>& constants,
-                             const Basis& basis) {
+                             const std::vector<Trajectory>& dofs) {
   if (scope.kind == Scope::Kind::once) return {};
-  return scope_times(problem, constants, scope, breakpoints(basis), "a scope");
+  const auto knots = [](const Trajectory& dof) { return dof.basis.knots.size(); };
+  const auto finest = std::ranges::max_element(dofs, {}, knots);
+  try {
+    return scope_times(
+        problem, constants, scope,
+        finest == dofs.end() ? std::vector<double>{problem.start, problem.end} : breakpoints(finest->basis), "a scope");
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace spacetime::gui

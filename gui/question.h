@@ -60,9 +60,10 @@ std::optional<double> value_of(const Quantity& quantity, const Problem& problem,
 std::string scope_text(const Equation& equation, const Problem& problem, const std::map<std::string, double>& constants,
                        std::optional<double> from, std::optional<double> to);
 
-// The times at which a statement with this scope is sampled.  For scopes on the knots `basis` is the finest one of the
-// motion.  Empty for statements without time.
+// The times at which a statement with this scope is sampled; on the knots those of the finest of the motion's degrees
+// of freedom.  Empty for statements without time, and where a constant has made the scope impossible: the optimizer
+// says so where it was set.
 std::vector<double> times_of(const Scope& scope, const Problem& problem, const std::map<std::string, double>& constants,
-                             const Basis& basis);
+                             const std::vector<Trajectory>& dofs);
 
 }  // namespace spacetime::gui

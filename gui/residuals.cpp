@@ -3,30 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/bspline.h"
-#include "common/diagnostic.h"
 #include "common/sample.h"
 
 namespace spacetime::gui {
+namespace {
 
-std::vector<Residual> residuals_of(const Equation& equation, const Problem& problem, const Curves& curves,
+// None where the constraint has no instances in time, or speaks of functionals, whose values only the optimizer has.
+std::vector<Residual> residuals_of(const Equation& equation, const Problem& problem, const Motion& motion,
                                    const std::map<std::string, double>& constants) {
   const auto program = problem.programs.find(equation.program);
-  if (program == problem.programs.end() || curves.dofs.empty()) return {};
+  if (program == problem.programs.end() || motion.dofs.empty()) return {};
   const auto is_functional = [](const Input& input) { return input.kind == InputKind::functional; };
   if (std::ranges::any_of(program->second.inputs, is_functional)) return {};
-  const auto knots = [](const Trajectory& dof) { return dof.basis.knots.size(); };
-  std::vector<double> times;
-  try {
-    times = times_of(equation.scope, problem, constants, std::ranges::max(curves.dofs, {}, knots).basis);
-  } catch (const InputError&) {
-    return {};  // a scope that a constant has made impossible has no instances
-  }
+  const std::vector<double> times = times_of(equation.scope, problem, constants, motion.dofs);
   if (times.empty()) return {};
-  Motion motion;
-  motion.dofs = curves.dofs;
-  motion.constants.assign(constants.begin(), constants.end());
-  motion.parameters = curves.parameters;
   const Rows rows = along(program->second, Evaluator(program->second), motion, {}, times);
   const std::size_t outputs = program->second.values.size();
   std::vector<Residual> residuals;
@@ -42,11 +32,17 @@ std::vector<Residual> residuals_of(const Equation& equation, const Problem& prob
   return residuals;
 }
 
+}  // namespace
+
 Residuals residuals_of(const Question& question, const Problem& problem, const Curves& curves) {
+  Motion motion;
+  motion.dofs = curves.dofs;
+  motion.constants.assign(question.constants.begin(), question.constants.end());
+  motion.parameters = curves.parameters;
   Residuals out;
   for (const Equation& equation : question.equations)
     out.push_back(equation.objective ? std::vector<Residual>{}
-                                     : residuals_of(equation, problem, curves, question.constants));
+                                     : residuals_of(equation, problem, motion, question.constants));
   return out;
 }
 

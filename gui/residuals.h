@@ -1,8 +1,6 @@
 // By how much constraints are off along a motion, instance by instance.
 #pragma once
 
-#include <map>
-#include <string>
 #include <vector>
 
 #include "gui/question.h"
@@ -15,11 +13,10 @@ struct Residual {
       0;  // largest component in size; of an inequality what it exceeds its limit by, negative where it holds
 };
 
-// None where the constraint has no instances in time, or speaks of functionals, whose values only the optimizer has.
-std::vector<Residual> residuals_of(const Equation& equation, const Problem& problem, const Curves& curves,
-                                   const std::map<std::string, double>& constants);
+constexpr double met = 1e-6;  // a violation of no more is none to the eye
 
-// Of each of the question's equations.
+// Of each of the question's equations; none where one has no instances in time, or speaks of functionals, whose values
+// only the optimizer has.
 using Residuals = std::vector<std::vector<Residual>>;
 Residuals residuals_of(const Question& question, const Problem& problem, const Curves& curves);
 

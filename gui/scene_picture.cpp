@@ -14,7 +14,6 @@ namespace {
 
 constexpr int trail_points = 160;
 constexpr int ghosts_shown = 5;
-constexpr double met = 1e-6;           // a violation below this is none to the eye
 constexpr double longest_arrow = 0.5;  // m, of the largest force over the whole motion
 
 void add_trails(const State& state, const Problem& problem, const Figures& figures, const Motion& motion,

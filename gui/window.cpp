@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "common/diagnostic.h"
@@ -22,6 +23,15 @@ namespace {
 // (a notice that goes) is looked at so rarely.
 constexpr int frames_after_change = 30;
 constexpr double longest_wait = 0.25;  // s
+
+// Other threads wake the window from before it is there until after it is gone, when GLFW knows nothing of it.
+std::mutex waking;
+bool can_be_woken = false;
+
+void let_wake(bool on) {
+  const std::lock_guard lock(waking);
+  can_be_woken = on;
+}
 
 // GLFW tells why only to a callback.
 std::string last_error;
@@ -65,8 +75,10 @@ class Shell {
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     glfwSetCharCallback(window, take_character);  // in place of ImGui's own, which passes the keys by
     ImGui_ImplOpenGL3_Init("#version 330");
+    let_wake(true);
   }
   ~Shell() {
+    let_wake(false);
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
@@ -81,7 +93,10 @@ class Shell {
 
 }  // namespace
 
-void wake_window() { glfwPostEmptyEvent(); }
+void wake_window() {
+  const std::lock_guard lock(waking);
+  if (can_be_woken) glfwPostEmptyEvent();
+}
 
 int run_window(Hub& hub, float scale, bool welcome) {
   Shell shell;

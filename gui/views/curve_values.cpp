@@ -28,8 +28,9 @@ void add_dof(const Ui& ui, const Trajectory& dof, bool ghost, std::vector<Plotte
   const double end = std::min(ui.memory.span.to, dof.basis.knots.back());
   const CurvesMemory& m = ui.memory.curves;
   std::vector<double> coefficients = dof.coefficients;
-  if (!ghost && m.dragged == dof.name && m.dragged_index >= 0)
-    coefficients[static_cast<std::size_t>(m.dragged_index)] = m.dragged_value;
+  if (const auto index = static_cast<std::size_t>(m.dragged_index);
+      !ghost && m.dragged == dof.name && index < coefficients.size())
+    coefficients[index] = m.dragged_value;
   for (int d = 0; d <= max_derivative; ++d) {
     if (!m.derivative[d]) continue;
     Plotted curve{
@@ -88,18 +89,27 @@ void add_points(const Ui& ui, Plotted curve, std::vector<Plotted>& out) {
 // So many can be told apart.
 std::size_t looks(const Ui& ui) { return ui.colours().curves.size() * static_cast<std::size_t>(styles); }
 
-std::vector<Plotted> residual_curves(const Ui& ui) {
-  std::vector<Plotted> out;
+// Of equations that are shown and have any; indices into both.
+std::vector<std::size_t> residuals_shown(const Ui& ui) {
+  std::vector<std::size_t> out;
   const std::string& selected = ui.state.selection.constraint;
   for (std::size_t e = 0; e < ui.residuals().size(); ++e) {
+    const bool meant = selected.empty() || selected == ui.question().equations[e].name;
+    if (meant && !ui.residuals()[e].empty()) out.push_back(e);
+  }
+  return out;
+}
+
+std::vector<Plotted> residual_curves(const Ui& ui) {
+  std::vector<Plotted> out;
+  for (const std::size_t e : residuals_shown(ui)) {
     const Equation& equation = ui.question().equations[e];
-    if (!selected.empty() && selected != equation.name) continue;
     Plotted curve{.name = equation.name, .of = equation.name};
     for (const Residual& r : ui.residuals()[e]) {
       curve.times.push_back(r.time);
       curve.values.push_back(r.value);
     }
-    if (!curve.times.empty()) add_points(ui, std::move(curve), out);
+    add_points(ui, std::move(curve), out);
   }
   return out;
 }
@@ -218,7 +228,7 @@ constexpr const char* none_in_time = "The constraint that is selected has no ins
 
 std::string residuals_lack(const Ui& ui) {
   if (!has_constraints(ui)) return no_constraints;
-  if (!residual_curves(ui).empty()) return {};
+  if (!residuals_shown(ui).empty()) return {};
   if (!ui.state.selection.constraint.empty()) return none_in_time;
   return "No constraint has instances in time.";
 }

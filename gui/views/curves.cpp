@@ -137,6 +137,23 @@ Steering moving(const std::string& dof, int index, double value) {
   return {.line = words.line, .actions = {words.action}, .solves = false};
 }
 
+void leave_control(CurvesMemory& m) {
+  if (m.held) m.low = m.high = 0;
+  m.held = false;
+  m.dragged.clear();
+  m.dragged_index = -1;
+}
+
+// A curve that was undone, refined or left meanwhile has other control points, or none.
+void keep_control(Ui& ui) {
+  CurvesMemory& m = ui.memory.curves;
+  if (m.dragged.empty()) return;
+  const auto same = [&](const Trajectory& dof) {
+    return dof.name == m.dragged && dof.coefficients.size() == m.dragged_of;
+  };
+  if (!ui.state.curves || std::ranges::none_of(ui.state.curves->dofs, same)) leave_control(m);
+}
+
 // A control point is taken hold of, moved, let go.
 void drag_control(Ui& ui, const PlotFrame& frame) {
   CurvesMemory& m = ui.memory.curves;
@@ -149,30 +166,35 @@ void drag_control(Ui& ui, const PlotFrame& frame) {
   }
   if (ImGui::IsMouseDown(0) && !dropped) return;
   if (moved && !dropped) ui.emit(Steered{true});
-  if (m.held) m.low = m.high = 0;
-  m.held = false;
-  m.dragged.clear();
-  m.dragged_index = -1;
+  leave_control(m);
 }
 
 void take_control(Ui& ui, const PlotFrame& frame, const Trajectory& dof, std::size_t i) {
   CurvesMemory& m = ui.memory.curves;
   m.dragged = dof.name;
   m.dragged_index = static_cast<int>(i);
+  m.dragged_of = dof.coefficients.size();
   m.dragged_value = dof.coefficients[i];
   m.held = m.high <= m.low;
   m.low = frame.bottom;
   m.high = frame.top;
 }
 
-// Whether the window leaves the optimiser, and the hand, this coefficient: its whole support has to be inside.
-bool is_free(const Question& question, const Trajectory& dof, std::size_t i) {
+// Whether the window leaves the optimiser, and the hand, anything of this curve.
+bool is_in_window(const Question& question, const Trajectory& dof) {
   const auto freedom = std::ranges::find(question.dofs, dof.name, &Freedom::name);
-  if (freedom != question.dofs.end() && !freedom->in_window) return false;
+  return freedom == question.dofs.end() || freedom->in_window;
+}
+
+// ... this coefficient of it: its whole support has to be inside.
+bool is_free(const Question& question, const Trajectory& dof, std::size_t i) {
   if (!question.window) return true;
   const auto& knots = dof.basis.knots;
   return knots[i] >= question.window->first && knots[i + 4] <= question.window->second;
 }
+
+// Knots and handles that lie closer to the last that was drawn are left out: zooming in shows them.
+constexpr float apart = 4;  // pixels at scale 1
 
 // Knots as ticks, and control points as handles; whether the mouse is at one.
 bool draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame, bool hovered) {
@@ -184,15 +206,26 @@ bool draw_controls(Ui& ui, ImDrawList& list, const PlotFrame& frame, bool hovere
     const ImU32 colour = packed(colour_of(ui, dof.name), 0.8F);
     if (m.knots) {
       const float y = frame.corner.y + frame.size.y;
-      for (const double t : breakpoints(dof.basis)) list.AddLine({frame.x(t), y - 5}, {frame.x(t), y}, colour);
+      float last = -std::numeric_limits<float>::infinity();
+      for (const double t : breakpoints(dof.basis)) {
+        const float x = frame.x(t);
+        if (x - last < ui.scaled(apart)) continue;
+        list.AddLine({x, y - 5}, {x, y}, colour);
+        last = x;
+      }
     }
     if (!m.controls || !m.derivative[0]) continue;
     const auto times = greville(dof.basis);
+    const bool in_window = is_in_window(ui.question(), dof);
+    const float far = std::numeric_limits<float>::infinity();
+    ImVec2 last{-far, -far};
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (!frame.shows(times[i])) continue;
       const bool mine = m.dragged == dof.name && m.dragged_index == static_cast<int>(i);
-      const bool free = is_free(ui.question(), dof, i);
       const ImVec2 at{frame.x(times[i]), frame.y(mine ? m.dragged_value : dof.coefficients[i])};
+      if (!mine && std::hypot(at.x - last.x, at.y - last.y) < ui.scaled(apart)) continue;
+      last = at;
+      const bool free = in_window && is_free(ui.question(), dof, i);
       const float away = std::hypot(mouse.x - at.x, mouse.y - at.y);
       const bool hot = mine || (hovered && m.dragged.empty() && away < 7 * ui.memory.scale);
       const float r = (hot && free ? 5.0F : 3.0F) * ui.memory.scale;
@@ -323,7 +356,7 @@ bool take_names(Ui& ui, const Names& names) {
     return true;
   }
   if (!names.of[index]) {
-    ui.help("Pale and dashed: before the last edit or run, as the ghost. Accept puts it away.");
+    ui.help("Pale and dashed: before the last edit or run, as the ghost. Keep puts it away.");
     return true;
   }
   const Plotted& curve = *names.of[index];
@@ -353,6 +386,7 @@ void draw_curves(Ui& ui, const TimeAxis& axis) {
   ImGui::SetCursorScreenPos({axis.left, at.y + 4});
   ImGui::InvisibleButton("curves", {axis.right - axis.left, height - below - 6});
   ui.here("curves");
+  keep_control(ui);
   const auto curves = curves_shown(ui);
   const State& s = ui.state;
   PlotFrame frame{{axis.left, at.y + 4}, {axis.right - axis.left, height - below - 6}, axis.from, axis.to, 0, 1};

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 #include "common/diagnostic.h"
 #include "common/files.h"
@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Example {
-  std::string file, name, about;
+  std::string file, name, about, text;
 };
 
 // The first comment of a scene says what it is.
-std::string first_comment(const fs::path& file) {
-  std::ifstream in(file);
+std::string first_comment(const std::string& text) {
+  std::istringstream in(text);
   std::string line, about;
   while (std::getline(in, line) && !line.empty() && line[0] == '#') {
     about += (about.empty() ? "" : " ") + line.substr(std::min(line.size(), line.find_first_not_of("# ")));
@@ -32,15 +32,21 @@ std::string first_comment(const fs::path& file) {
   return about.substr(0, about.find(". ") == std::string::npos ? about.size() : about.find(". ") + 1);
 }
 
+// Read once: they come with the program.  One that cannot be read is not offered.
 const std::vector<Example>& examples() {
   static const std::vector<Example> all = [] {
     std::vector<Example> out;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(examples_folder(), none)) {
+    for (const fs::directory_entry& entry : entries_of(examples_folder()).all) {
       if (entry.path().extension() != ".scene") continue;
       std::string name = entry.path().stem();
       std::ranges::replace(name, '_', ' ');
-      out.push_back({entry.path(), name, first_comment(entry.path())});
+      try {
+        std::string text = read_text(entry.path());
+        std::string about = first_comment(text);
+        out.push_back({entry.path(), std::move(name), std::move(about), std::move(text)});
+      } catch (const InputError&) {
+        continue;
+      }
     }
     // The throw first: it is what the program is about.
     std::ranges::sort(out, {}, [](const Example& e) { return std::pair(e.name != "throw", e.name); });
@@ -193,11 +199,8 @@ void go(Ui& ui, const Leaving& leaving, bool discard) {
       return ui.emit(OpenText{std::string(new_scene), discard});
     case Leaving::To::example:
       // A copy without a file of its own: saving asks for one, and the example stays as it is.
-      try {
-        ui.emit(OpenText{read_text(leaving.file), discard});
-      } catch (const InputError& error) {
-        ui.emit(FileFailed{leaving.file, error.what()});
-      }
+      const auto example = std::ranges::find(examples(), leaving.file, &Example::file);
+      if (example != examples().end()) ui.emit(OpenText{example->text, discard});
   }
 }
 

@@ -69,8 +69,8 @@ void draw_marks(Ui& ui, const Equation& equation) {
   }
   const Violation* violation = violation_of(ui.state, equation.name);
   if (!violation) return;
-  const bool met = violation->max <= 1e-6;
-  ImGui::TextColored(met ? colours.good : colours.bad, "%s", met ? "met" : shown(violation->max).c_str());
+  const bool holds = violation->max <= met;
+  ImGui::TextColored(holds ? colours.good : colours.bad, "%s", holds ? "met" : shown(violation->max).c_str());
   if (ImGui::IsItemHovered()) {
     std::string text = fmt::format("Off by {} at most", shown(violation->max));
     if (violation->time) text += fmt::format(", at {} s", shown(*violation->time));

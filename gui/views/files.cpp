@@ -20,22 +20,54 @@ namespace fs = std::filesystem;
 constexpr int strip_poses = 12;
 constexpr int most_edge = 8192, most_pictures = 100000;
 
+constexpr double looked_again = 1;  // s: folders and files are looked at no more often, wherever they lie
+
+// Where the program was started; the root where that is no more.
+fs::path here() {
+  std::error_code gone;
+  const fs::path folder = fs::current_path(gone);
+  return gone ? fs::path("/") : folder;
+}
+
+// The folder that a file is in.
+fs::path folder_of(const std::string& file) { return file.empty() ? here() : (here() / file).parent_path(); }
+
+const Listing& listing(FilesMemory& m, std::initializer_list<std::string_view> endings) {
+  Listing& list = m.listing;
+  if (list.folder == m.folder && list.since >= 0 && ImGui::GetTime() - list.since < looked_again) return list;
+  list = {};
+  list.folder = m.folder;
+  list.since = ImGui::GetTime();
+  const Entries entries = entries_of(m.folder);
+  list.failed = entries.failed;
+  for (const fs::directory_entry& entry : entries.all) {
+    std::error_code none;
+    const std::string name = entry.path().filename();
+    const bool folder = entry.is_directory(none);
+    if (name.starts_with('.') || (!folder && !std::ranges::count(endings, entry.path().extension().string()))) continue;
+    list.names.emplace_back(!folder, name);
+  }
+  std::ranges::sort(list.names);
+  return list;
+}
+
+const Looked& look_at(FilesMemory& m, const fs::path& file) {
+  Looked& looked = m.looked;
+  if (looked.file == file && looked.since >= 0 && ImGui::GetTime() - looked.since < looked_again) return looked;
+  std::error_code none;
+  const fs::file_status status = fs::status(file, none);
+  looked = {file, ImGui::GetTime(), fs::exists(status), fs::is_regular_file(status)};
+  return looked;
+}
+
 // The folder, of which files with these endings are shown; clicked, they are named.
 void list_folder(Ui& ui, std::initializer_list<std::string_view> endings, float height = 260) {
   FilesMemory& m = ui.memory.files;
-  std::vector<std::pair<bool, std::string>> names;  // not a folder, name: folders come first
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(m.folder, failed)) {
-    const std::string name = entry.path().filename();
-    const bool folder = entry.is_directory(failed);
-    if (name.starts_with('.') || (!folder && !std::ranges::count(endings, entry.path().extension().string()))) continue;
-    names.emplace_back(!folder, name);
-  }
-  std::ranges::sort(names);
+  const Listing& list = listing(m, endings);
   ImGui::BeginChild("files", {0, ui.scaled(height)}, true);
   if (ImGui::Selectable("../")) m.folder = fs::path(m.folder).parent_path();
   ui.control("folder above", "The folder that this one is in.");
-  for (const auto& [plain, name] : names) {
+  for (const auto& [plain, name] : list.names) {
     if (ImGui::Selectable((plain ? name : name + "/").c_str(), m.name == name)) {
       if (plain)
         m.name = name;
@@ -44,7 +76,7 @@ void list_folder(Ui& ui, std::initializer_list<std::string_view> endings, float 
     }
     ui.control("file " + name, plain ? "Choose this name." : "Go into this folder.");
   }
-  if (failed) ImGui::TextColored(ui.colours().bad, "This folder cannot be read.");
+  if (list.failed) ImGui::TextColored(ui.colours().bad, "This folder cannot be read.");
   ImGui::EndChild();
 }
 
@@ -59,11 +91,10 @@ const char* film_kind(const std::string& name) {
 bool is_strip(const std::string& name) { return name.ends_with(".png") && name.find('%') == std::string::npos; }
 
 // Whether what it would write is there already: of numbered pictures, the first.
-bool is_there(const fs::path& file) {
-  std::error_code none;
+bool is_there(FilesMemory& m, const fs::path& file) {
   try {
     const auto pattern = pattern_of(file);
-    return fs::exists(pattern ? fs::path(pattern->file(0)) : file, none);
+    return look_at(m, pattern ? fs::path(pattern->file(0)) : file).there;
   } catch (const InputError&) {
     return false;  // `render` will say what is wrong with it
   }
@@ -73,7 +104,8 @@ bool is_there(const fs::path& file) {
 void begin_film(Ui& ui) {
   FilesMemory& m = ui.memory.files;
   const State& s = ui.state;
-  m.folder = s.file.empty() ? fs::current_path() : fs::absolute(s.file).parent_path();
+  m.folder = folder_of(s.file);
+  m.listing = {};
   m.name = s.file.empty() ? "film.mp4" : fs::path(s.file).stem().string() + ".mp4";
   const auto scene = ui.memory.places.find("scene");
   const Rect room = scene == ui.memory.places.end() ? Rect{0, 0, 1280, 720} : scene->second;
@@ -158,7 +190,7 @@ void draw_film(Ui& ui) {
     ImGui::TextColored(ui.colours().bad, "%s", fault.c_str());
   const bool possible = fault.empty();
   const fs::path file = fs::path(m.folder) / m.name;
-  if (possible && is_there(file))
+  if (possible && is_there(m, file))
     ImGui::TextColored(ui.colours().warning, file.string().find('%') == std::string::npos
                                                  ? "This file will be replaced."
                                                  : "Pictures of these names will be replaced.");
@@ -188,6 +220,15 @@ void draw_film(Ui& ui) {
 
 }  // namespace
 
+Entries entries_of(const fs::path& folder) {
+  Entries found;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+    found.all.push_back(*entry);
+  found.failed = static_cast<bool>(failed);
+  return found;
+}
+
 bool escaped() { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)); }
 
 void draw_files(Ui& ui) {
@@ -198,8 +239,9 @@ void draw_files(Ui& ui) {
   const char* title = open ? "Open a scene" : "Save the scene";
   if (!ImGui::IsPopupOpen(title)) {
     ImGui::OpenPopup(title);
-    const fs::path file = ui.state.file.empty() ? fs::path() : fs::absolute(ui.state.file);
-    m.folder = file.empty() ? fs::current_path() : file.parent_path();
+    const fs::path file = ui.state.file;
+    m.folder = folder_of(file);
+    m.listing = {};
     m.name = open ? "" : file.empty() ? "untitled.scene" : std::string(file.filename());
   }
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
@@ -214,8 +256,7 @@ void draw_files(Ui& ui) {
   const bool entered = ImGui::InputText("##name", &m.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.control("file name", "Of the file, in the folder above; Enter takes it.");
   const fs::path chosen = fs::path(m.folder) / m.name;
-  std::error_code none;
-  const bool exists = !m.name.empty() && fs::is_regular_file(chosen, none);
+  const bool exists = !m.name.empty() && look_at(m, chosen).regular;
   if (!open && exists) ImGui::TextColored(ui.colours().warning, "This file will be replaced.");
   const bool possible = open ? exists : !m.name.empty();
   if (!possible) ImGui::BeginDisabled();

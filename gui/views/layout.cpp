@@ -8,8 +8,10 @@
 #include "gui/views/freedoms.h"
 #include "gui/views/menu.h"
 #include "gui/views/optimisation.h"
+#include "gui/views/shortcuts.h"
 #include "gui/views/texts.h"
 #include "gui/views/timeline.h"
+#include "gui/views/toolbar.h"
 
 namespace spacetime::gui {
 namespace {
@@ -133,6 +135,7 @@ void draw_window(Ui& ui, SceneView& scene) {
   draw_status(ui);
   draw_dialogs(ui);
   ImGui::End();
+  end_lost_drags(ui);
 }
 
 }  // namespace spacetime::gui

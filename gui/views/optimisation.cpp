@@ -126,7 +126,16 @@ void draw(Ui& ui, const PlotFrame& frame, const Course& course, bool powers) {
     const double v = course.values[i];
     if (!std::isfinite(v)) continue;
     const double height = !powers ? v : v > 0 ? std::log10(v) : frame.bottom;
-    points.push_back({frame.x(record.iterations[i].iteration - record.began()), frame.y(height)});
+    const ImVec2 at{frame.x(record.iterations[i].iteration - record.began()), frame.y(height)};
+    // Of what one column of pixels holds, the lowest and the highest: ImGui can draw 16,384 points in one line.
+    const std::size_t n = points.size();
+    if (n < 2 || std::floor(at.x) != std::floor(points[n - 2].x)) {
+      points.push_back(at);
+      continue;
+    }
+    const auto [low, high] = std::minmax({points[n - 2].y, points[n - 1].y, at.y});
+    points[n - 2].y = low;
+    points[n - 1].y = high;
   }
   const ImU32 colour = packed(course.name.colour);
   list.PushClipRect(frame.corner, {frame.corner.x + frame.size.x, frame.corner.y + frame.size.y}, true);

@@ -83,15 +83,18 @@ void frame_all(Ui& ui, const Figures& figures, const Motion& motion, const glm::
 void look(Ui& ui, const Figures& figures, const glm::vec2& size) {
   const State& s = ui.state;
   SceneMemory& m = ui.memory.scene;
+  const bool another = !s.log.empty() && m.framed_for != s.opened;
+  const bool settled = s.running || s.steering || m.grounded == s.revision;
+  if (m.framed && !another && settled) return;
   const Motion motion = motion_of(s, false);
-  if (!s.log.empty() && m.framed_for != s.opened) {
+  if (another) {
     m.framed_for = s.opened;
     m.framed = false;
     m.camera = SceneMemory().camera;  // whatever the scene before was looked at from
     if (!planar(figures.bounds(motion))) m.camera = looking(View::free, m.camera);
   }
   if (!m.framed) return frame_all(ui, figures, motion, size);
-  if (s.running || s.steering || m.grounded == s.revision) return;
+  if (settled) return;
   m.grounded = s.revision;
   m.ground = std::min(m.ground, ground_height(figures.bounds(motion)));  // nothing sinks into it
 }

@@ -16,14 +16,17 @@ const Diagnostic* mistake_in(const std::vector<Diagnostic>& mistakes, int line) 
   return found == mistakes.end() ? nullptr : &*found;
 }
 
-void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diagnostic>& mistakes) {
+// `statement`: that which begins there, if one does.
+void draw_line(Ui& ui, std::string_view line, int number, const Statement* statement, const Diagnostic* mistake) {
   const Colours& colours = ui.colours();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
-  const auto& outline = ui.state.scene->outline;
-  const auto statement = std::ranges::find_if(outline, [&](const Statement& s) { return s.line == number; });
-  if (statement != outline.end() && !statement->name.empty() && statement->name == ui.state.selection.constraint)
+  const float digit = ImGui::CalcTextSize("0").x;  // all letters are as wide
+  // What is scrolled away takes its room.
+  const ImVec2 room{4 * digit + ui.scaled(10) + digit * static_cast<float>(line.size()), height};
+  if (!mistake && ui.memory.scroll_to_line != number && !ImGui::IsRectVisible(room)) return ImGui::Dummy(room);
+  if (statement && !statement->name.empty() && statement->name == ui.state.selection.constraint)
     list.AddRectFilled({at.x - 4, at.y - 1}, {at.x + width, at.y + height + 1}, packed(colours.accent, 0.18F), 3);
   if (ui.memory.scroll_to_line == number) {
     ImGui::SetScrollHereY(0.4F);
@@ -35,7 +38,7 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
   const std::size_t comment = std::min(line.find('#'), line.size());
   std::string_view code = line.substr(0, comment);
   const float gap = 0;
-  if (statement != outline.end() && code.find(statement->word) == code.find_first_not_of(' ')) {
+  if (statement && code.find(statement->word) == code.find_first_not_of(' ')) {
     const std::size_t end = code.find(statement->word) + statement->word.size();
     ImGui::PushStyleColor(ImGuiCol_Text, colours.accent);
     ImGui::TextUnformatted(code.data(), code.data() + end);
@@ -50,8 +53,7 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
     ImGui::TextUnformatted(line.data() + comment, line.data() + line.size());
     ImGui::PopStyleColor();
   }
-  if (const Diagnostic* mistake = mistake_in(mistakes, number)) {
-    const float digit = ImGui::CalcTextSize("0").x;
+  if (mistake) {
     const float left = at.x + 3 * digit + ui.scaled(10) + static_cast<float>(mistake->span.column - 1) * digit;
     const float right = left + static_cast<float>(std::max(1, mistake->span.length)) * digit, y = at.y + height;
     for (float x = left; x < right; x += 4)
@@ -69,6 +71,21 @@ void draw_line(Ui& ui, std::string_view line, int number, const std::vector<Diag
   }
 }
 
+// In the font that is set.
+LogLine line_of(const Entry& entry, bool first, float width) {
+  LogLine line;
+  line.number = entry.number;
+  line.motion = entry.motion;
+  line.length = entry.text.size();
+  line.width = width;
+  // What came of it first; the line may be long.
+  line.text = first ? "the scene as it was opened" : in_one_line(entry.text);
+  if (!first && entry.motion && entry.iterated)
+    line.text = fmt::format("{}, {}:  {}", name_of(entry.motion->status), shown(entry.motion->objective), line.text);
+  line.height = ImGui::CalcTextSize(line.text.c_str(), nullptr, false, width).y;
+  return line;
+}
+
 }  // namespace
 
 void draw_text(Ui& ui) {
@@ -80,14 +97,18 @@ void draw_text(Ui& ui) {
   }
   if (!s.scene->problem && !s.scene->diagnostics.empty())
     ImGui::TextWrapped("Correct it in an editor: the file is read again when it is saved.");
-  const std::string text = text_of(s);
   ImGui::PushFont(ui.memory.fonts.code);
   ImGui::BeginChild("text", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
   int number = 0;
-  std::string_view rest = text;
+  std::string_view rest = s.scene->text;
+  auto statement = s.scene->outline.begin();  // they stand in the order of their lines
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    draw_line(ui, rest.substr(0, end), ++number, s.scene->diagnostics);
+    ++number;
+    while (statement != s.scene->outline.end() && statement->line < number) ++statement;
+    const bool begins = statement != s.scene->outline.end() && statement->line == number;
+    draw_line(ui, rest.substr(0, end), number, begins ? &*statement : nullptr,
+              mistake_in(s.scene->diagnostics, number));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   ImGui::EndChild();
@@ -100,26 +121,33 @@ void draw_log(Ui& ui) {
   ImGui::TextWrapped("Every act is a line of the scene. Click one to go back to it.");
   ImGui::PopStyleColor();
   ImGui::BeginChild("entries");
+  const float width = ImGui::GetContentRegionAvail().x;
+  const bool grown = ui.memory.log_lines.size() < s.log.size();
+  ui.memory.log_lines.resize(s.log.size());
   for (std::size_t i = 0; i < s.log.size(); ++i) {
     const Entry& entry = s.log[i];
     const bool future = static_cast<int>(i) > s.present, here = static_cast<int>(i) == s.present;
-    // What came of it first; the line may be long.
-    std::string line = i == 0 ? "the scene as it was opened" : in_one_line(entry.text);
-    if (i > 0 && entry.motion && entry.iterated)
-      line = fmt::format("{}, {}:  {}", name_of(entry.motion->status), shown(entry.motion->objective), line);
     ImGui::PushFont(i == 0 ? ui.memory.fonts.text : ui.memory.fonts.code);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, width).y;
-    if (ImGui::Selectable(fmt::format("##entry {}", i).c_str(), here, 0, {width, height}) && entry.checkpoint)
+    LogLine& line = ui.memory.log_lines[i];
+    if (line.number != entry.number || line.motion != entry.motion || line.length != entry.text.size() ||
+        line.width != width)
+      line = line_of(entry, i == 0, width);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room{width, line.height};
+    if (!ImGui::IsRectVisible(room)) {
+      ImGui::Dummy(room);
+      ImGui::PopFont();
+      if (here && grown) ImGui::SetScrollHereY(1);
+      continue;
+    }
+    if (ImGui::Selectable(fmt::format("##entry {}", i).c_str(), here, 0, room) && entry.checkpoint)
       ui.emit(GoTo{static_cast<int>(i)});
     ui.control(fmt::format("entry {}", i),
-               (future ? "Undone: click to redo up to here.\n" : "Click to go back to here.\n") + line);
+               (future ? "Undone: click to redo up to here.\n" : "Click to go back to here.\n") + line.text);
     ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), at,
-                                        packed(future ? ui.colours().faint : ui.colours().text), line.c_str(), nullptr,
-                                        width);
+                                        packed(future ? ui.colours().faint : ui.colours().text), line.text.c_str(),
+                                        nullptr, width);
     ImGui::PopFont();
-    if (here && i + 1 == s.log.size()) ImGui::SetScrollHereY(1);
+    if (here && grown) ImGui::SetScrollHereY(1);
   }
   for (const std::string& line : s.script) {
     ImGui::TextDisabled("to do: %s", line.c_str());

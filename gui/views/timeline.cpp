@@ -151,10 +151,8 @@ void draw_window_row(Ui& ui, const TimeAxis& axis, const Problem& problem) {
 
 void draw_scopes(Ui& ui, const TimeAxis& axis, const Problem& problem) {
   const Question& question = ui.question();
-  const Basis basis =
-      ui.state.curves && !ui.state.curves->dofs.empty()
-          ? std::ranges::max(ui.state.curves->dofs, {}, [](const Trajectory& c) { return c.basis.knots.size(); }).basis
-          : uniform_basis(problem.start, problem.end, 1);
+  static const std::vector<Trajectory> none;
+  const std::vector<Trajectory>& dofs = ui.state.curves ? ui.state.curves->dofs : none;
   for (const Equation& equation : question.equations) {
     if (equation.objective || equation.scope.kind == Scope::Kind::once) continue;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -165,12 +163,7 @@ void draw_scopes(Ui& ui, const TimeAxis& axis, const Problem& problem) {
                           : selected        ? ui.colours().accent
                                             : ui.colours().curves[2];
     label_of(ui, list, axis, y, equation.name, selected ? ui.colours().accent : ui.colours().faint);
-    std::vector<double> times;
-    try {
-      times = times_of(equation.scope, problem, question.constants, basis);
-    } catch (const InputError&) {
-      // A constant has been set so that the scope makes no sense; the optimizer says so where it was set.
-    }
+    const std::vector<double> times = times_of(equation.scope, problem, question.constants, dofs);
     const bool interval = equation.scope.kind == Scope::Kind::every || equation.scope.kind == Scope::Kind::count ||
                           equation.scope.kind == Scope::Kind::knots || equation.scope.kind == Scope::Kind::whole;
     if (interval && !times.empty()) {

@@ -33,26 +33,58 @@ Rect place_of_help(const ImVec2& low, const ImVec2& high, const char* text, floa
   return {std::clamp(at.x, 0.0F, std::max(0.0F, room.x - width)), std::max(0.0F, at.y), width, height};
 }
 
+Asked asked_of(const State& s) {
+  Asked asked;
+  asked.scene = s.scene;
+  asked.present = s.present;
+  asked.acts = s.log.size();
+  if (s.present < 0 || s.log.empty()) return asked;
+  const Entry& entry = s.log[static_cast<std::size_t>(s.present)];
+  asked.number = entry.number;
+  asked.actions = entry.actions.size();
+  asked.motion = entry.motion;
+  return asked;
+}
+
+// A constraint that was selected may be deleted since, or its act undone.  Bounds are selected by their degree of
+// freedom.
+void drop_selected(Ui& ui) {
+  const std::string& selected = ui.state.selection.constraint;
+  if (selected.empty() || !ui.state.scene || !ui.state.scene->problem) return;
+  const Question& question = ui.question();
+  if (std::ranges::count(question.equations, selected, &Equation::name) > 0) return;
+  if (std::ranges::count(question.dofs, selected, &Freedom::name) > 0) return;
+  Selection selection = ui.state.selection;
+  selection.constraint.clear();
+  ui.emit(Select{selection});
+}
+
 }  // namespace
 
 void refresh(Ui& ui) {
   Memory& m = ui.memory;
   const State& s = ui.state;
-  if (m.asked != s.scene || m.asked_present != s.present || m.asked_acts != s.log.size() ||
-      m.asked_motion != s.motion) {
-    m.asked_motion = s.motion;
-    m.asked = s.scene;
-    m.asked_present = s.present;
-    m.asked_acts = s.log.size();
+  if (Asked asked = asked_of(s); m.asked != asked) {
+    m.asked = std::move(asked);
     m.question = question_of(s);
     m.measured = -1;
   }
+  drop_selected(ui);
   std::erase_if(m.told, [&](const std::string& text) { return !std::ranges::count(s.notices, text, &Notice::text); });
   // What the optimizer has is newer than what the text says, and what is being dragged newer still.
   if (s.curves)
     for (const auto& [name, value] : s.curves->constants) m.question.constants[name] = value;
   if (s.steering)
     for (const auto& [name, value] : s.steering->constants) m.question.constants[name] = value;
+}
+
+void end_lost_drags(Ui& ui) {
+  const bool up = !ImGui::IsAnyMouseDown();
+  if (up || !ImGui::IsAnyItemActive()) {
+    ui.memory.key.dragged = -1;
+    ui.memory.bar.dragged.clear();
+  }
+  if (up && ui.state.steering) ui.emit(Steered{true});
 }
 
 const Residuals& Ui::residuals() const {

@@ -31,6 +31,7 @@ struct CurvesMemory {
   enum class Show { curves, residuals, multipliers } show = Show::curves;
   std::string dragged;  // degree of freedom of the control point that is being dragged
   int dragged_index = -1;
+  std::size_t dragged_of = 0;  // so many control points its curve had when it was taken hold of
   double dragged_value = 0;
   std::string reading;  // what is told of the curve that the mouse is near
   std::string lacking;  // what is told of curves that are asked for and not there
@@ -77,9 +78,26 @@ struct KeyMemory {
   bool moved = false;
 };
 
+// What a folder holds, as it was when it was last looked at.
+struct Listing {
+  std::string folder;
+  double since = -1;                                // s, by ImGui's clock
+  std::vector<std::pair<bool, std::string>> names;  // not a folder, name: folders come first
+  bool failed = false;
+};
+
+// Likewise a file.
+struct Looked {
+  std::string file;
+  double since = -1;  // s
+  bool there = false, regular = false;
+};
+
 struct FilesMemory {
   enum class Dialog { none, open, save, film } dialog = Dialog::none;
   std::string folder, name;
+  Listing listing;
+  Looked looked;
   // Films:
   bool as_seen = true;   // by the window's camera
   int size[2]{0, 0};     // pixels
@@ -101,15 +119,33 @@ struct Leaving {
 
 inline constexpr int scene_tab = 1;  // of the tools: the scene's text
 
+// What a question was worked out from: nothing else changes it.
+struct Asked {
+  std::shared_ptr<const Scene> scene;
+  int present = -1;
+  std::size_t acts = 0;
+  // Of the present entry: an act may join one that is there, and where it led is known later.
+  int number = 0;
+  std::size_t actions = 0;
+  std::shared_ptr<const Motion> motion;
+  bool operator==(const Asked&) const = default;
+};
+
+// A line of the log as it is shown.
+struct LogLine {
+  int number = 0;  // of its entry
+  std::shared_ptr<const Motion> motion;
+  std::size_t length = 0;       // bytes, of the entry's text
+  float width = 0, height = 0;  // pixels, of the text wrapped
+  std::string text;
+};
+
 struct Memory {
   Fonts fonts;
   Colours colours;
   std::optional<bool> dark;  // the theme that `colours` and ImGui have been given
   float scale = 1;
-  std::shared_ptr<const Scene> asked;  // what `question` was worked out from
-  int asked_present = -1;
-  std::size_t asked_acts = 0;
-  std::shared_ptr<const Motion> asked_motion;
+  Asked asked;
   Question question;
   long measured = -1;  // State::revision that `residuals` are of
   Residuals residuals;
@@ -135,6 +171,7 @@ struct Memory {
   bool quit = false;               // the window is to be closed
   bool discard = false;            // ... and what is not saved is to be thrown away
   std::optional<Leaving> leaving;  // once the person has decided about unsaved changes
+  std::vector<LogLine> log_lines;
   std::string console, console_by;
   int scroll_to_line = 0;               // in the scene text
   bool objective_by_iteration = false;  // rather than how far it is from converged
@@ -174,6 +211,10 @@ struct Ui {
 
 // Brings the memory up to the state, once a frame.
 void refresh(Ui& ui);
+
+// Behind all views of a frame: ends what is held no more.  Its control sees that itself, unless it is gone, or lay
+// under a dialog when the button was let go.
+void end_lost_drags(Ui& ui);
 
 // Whether there is something to show; says why not.
 bool has_problem(const Ui& ui);

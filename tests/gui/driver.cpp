@@ -5,8 +5,10 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <stdexcept>
 #include <thread>
 
+#include "common/files.h"
 #include "tests/gui/driven.h"
 
 namespace spacetime::test {
@@ -27,7 +29,7 @@ void Driver::until(const std::function<bool(const gui::State&)>& holds, const st
     frame();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (std::chrono::steady_clock::now() > deadline)
-      FAIL() << "waited in vain for " << what << "; told: " << told(hub_.state());
+      throw std::runtime_error("waited in vain for " + what + "; told: " + told(hub_.state()));
   }
 }
 
@@ -35,6 +37,16 @@ void Driver::settle() {
   frame(2);
   until(quiet, "quiet");
   frame(2);
+}
+
+void Driver::open(const std::string& text) {
+  hub_.post(gui::OpenText{text});
+  until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  settle();
+}
+
+void Driver::open_example(const std::string& name) {
+  open(read_text(SPACETIME_SOURCE_DIR "/examples/" + name + ".scene"));
 }
 
 bool Driver::has(const std::string& name) { return screen_.memory().places.contains(name); }

@@ -15,9 +15,11 @@ class Driver {
   explicit Driver(gui::HubOptions options, int width = 1280, int height = 800, float scale = 1);
 
   void frame(int count = 1);  // each a sixtieth of a second, whatever the clock says
-  // Frames until the condition holds; a test failure after ten seconds without.
+  // Frames until the condition holds; throws, which ends the test, after twenty seconds without.
   void until(const std::function<bool(const gui::State&)>& holds, const std::string& what);
-  void settle();  // until nothing is under way
+  void settle();                               // until nothing is under way
+  void open(const std::string& text);          // a scene, until all of it is there
+  void open_example(const std::string& name);  // likewise
 
   bool has(const std::string& name);
   gui::Rect place(const std::string& name);  // of a control; a test failure where it is not there

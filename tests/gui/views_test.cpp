@@ -102,8 +102,15 @@ TEST(ViewsSource, EveryControlIsNamedAndHelpedWith) {
     if (file.path().extension() != ".cpp") continue;
     const std::string text = read_text(file.path());
     for (auto at = text.find(library); at != std::string::npos; at = text.find(library, at + 1)) {
-      const std::string behind = text.substr(at + library.size(), 900);
-      if (!asks_for_control(behind.substr(0, behind.find('(')))) continue;
+      const std::string function = text.substr(at + library.size(), text.find('(', at) - at - library.size());
+      if (!asks_for_control(function)) continue;
+      // Up to the next control that is asked for.
+      auto next = text.find(library, at + 1);
+      const auto asks = [&] {
+        return asks_for_control(text.substr(next + library.size(), text.find('(', next) - next - library.size()));
+      };
+      while (next != std::string::npos && !asks()) next = text.find(library, next + 1);
+      const std::string behind = text.substr(at + library.size(), next == std::string::npos ? next : next - at);
       ++asked;
       const bool helped = behind.find("control(") != std::string::npos || behind.find("here(\"curves\")") < 200 ||
                           behind.find("here(\"scene\")") < 200;

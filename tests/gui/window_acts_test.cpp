@@ -14,12 +14,6 @@
 namespace spacetime::test {
 namespace {
 
-void open_example(Driver& d, const std::string& name) {
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/" + name + ".scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
-  d.settle();
-}
-
 bool is_told(const gui::State& s, const std::string& words) { return told(s).find(words) != std::string::npos; }
 
 // A scene without a file that is left: saved under a name first, then what was asked for comes.
@@ -27,7 +21,7 @@ TEST(Window, WhatWasAskedForComesAfterSavingUnderAName) {
   const std::string folder = scratch("window_acts_leaving");
   std::filesystem::create_directories(folder);
   Driver d(daemons());
-  open_example(d, "double_integrator");
+  d.open_example("double_integrator");
   act(d.hub(), "iterate 1");
   const auto ask_for_name = [&](const std::string& name) {
     d.frame(3);
@@ -113,7 +107,7 @@ double weight_of(Driver& d, const std::string& name) {
 // A weight is steered like a constant: the motion follows while it is dragged, and one act is left.
 TEST(Window, TheMotionFollowsAWeight) {
   Driver d(daemons());
-  open_example(d, "throw");
+  d.open_example("throw");
   d.click("run");
   d.settle();
   const auto energy = [&] { return d.state().motion->terms.front().second / weight_of(d, "energy"); };
@@ -143,7 +137,7 @@ TEST(Window, TheMotionFollowsAWeight) {
 // What is typed behind Ctrl+A arrives whole, however few frames there are.
 TEST(Window, AWeightIsWrittenBehindCtrlA) {
   Driver d(daemons());
-  open_example(d, "throw");
+  d.open_example("throw");
   d.click("run");
   d.settle();
   d.click("weight calm");
@@ -167,7 +161,7 @@ TEST(Window, AWeightIsWrittenBehindCtrlA) {
 TEST(Window, ThePanelTellsOfTheRun) {
   for (const auto& [width, height, scale] : {std::tuple{1280, 800, 1.0F}, {2560, 1440, 1.5F}}) {
     Driver d(daemons(), width, height, scale);
-    open_example(d, "throw");
+    d.open_example("throw");
     const std::string name = "panel-" + std::to_string(width);
     const auto standing = [&] { return d.screen().memory().standing; };
     EXPECT_EQ(standing(), "Not solved yet: press Run.");
@@ -220,7 +214,7 @@ TEST(Window, ThePanelTellsOfTheRun) {
 // A long line of the log is wrapped, with what came of it first.
 TEST(Window, LongLinesOfTheLogAreWrapped) {
   Driver d(daemons());
-  open_example(d, "double_integrator");
+  d.open_example("double_integrator");
   act(d.hub(), "iterate 1");
   act(d.hub(), "constrain a_rather_long_name: x + 0.1 * x' + 0.01 * x'' <= 10 over [0.1, 0.9] every 0.05");
   d.click("tab Log");
@@ -231,7 +225,7 @@ TEST(Window, LongLinesOfTheLogAreWrapped) {
 // Help comes when the mouse stays, beside the control, and goes with a press until the mouse has left.
 TEST(Window, HelpStandsBesideWhatItIsOf) {
   Driver d(daemons(), 960, 600);
-  open_example(d, "throw");
+  d.open_example("throw");
   const auto rest_on = [&](const std::string& name, double seconds) {
     const gui::Rect r = d.place(name);
     d.screen().move(r.x + r.width / 2, r.y + r.height / 2);
@@ -266,7 +260,7 @@ TEST(Window, HelpStandsBesideWhatItIsOf) {
 // A run can be slowed down, to be watched and paused; it comes to the same bits.
 TEST(Window, ASlowRunIsWatchedAndPaused) {
   Driver d(daemons());
-  open_example(d, "throw");
+  d.open_example("throw");
   d.click("pace");
   d.frame(2);
   d.save_picture("pace.png");
@@ -299,7 +293,7 @@ TEST(Window, GhostsAnswerTheirKey) {
   d.key(GLFW_KEY_G);
   d.frame(2);
   EXPECT_TRUE(is_told(d.state(), "There is no figure yet to pin a ghost of."));
-  open_example(d, "throw");
+  d.open_example("throw");
   d.key(GLFW_KEY_G);
   d.frame(2);
   EXPECT_TRUE(is_told(d.state(), "A ghost is pinned at 0 s"));
@@ -325,7 +319,7 @@ TEST(Window, ANewSceneIsFramedAnew) {
     return camera(d);
   }();
   Driver d(daemons());
-  open_example(d, "throw");
+  d.open_example("throw");
   d.key(GLFW_KEY_4);
   d.wheel("scene", 5);
   d.frame(3);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "common/bspline.h"
-#include "common/files.h"
 #include "tests/gui/driven.h"
 #include "tests/gui/driver.h"
 
@@ -15,9 +14,7 @@ namespace {
 // The ruler, the bars and the curves show the same span of time, however it is zoomed and moved.
 TEST(Window, TheTimeAxisIsZoomedAndMovedAsOne) {
   Driver d(daemons(), 1280, 800);
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
-  d.settle();
+  d.open_example("throw");
   gui::Selection selection;
   selection.dofs = {"arm.elbow"};
   d.hub().post(gui::Select{selection});
@@ -57,8 +54,7 @@ TEST(Window, TheTimeAxisIsZoomedAndMovedAsOne) {
 // A control point that is dragged takes the figure with it; the text has where it was let go.
 TEST(Window, AControlPointIsDraggedWithTheFigure) {
   Driver d(daemons(), 1280, 800);
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.open_example("throw");
   d.click("run");
   d.settle();
   gui::Selection selection;
@@ -104,8 +100,7 @@ TEST(Window, AControlPointIsDraggedWithTheFigure) {
 // What constraints cost, instance by instance, after a solve.
 TEST(Window, MultipliersAreShownOverTime) {
   Driver d(daemons(), 1280, 800);
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.open_example("throw");
   d.click("run");
   d.settle();
   d.click("show multipliers");
@@ -136,8 +131,7 @@ TEST(Window, MultipliersAreShownOverTime) {
 // Names select degrees of freedom; what is selected is filtered and shaken, and so it is in a batch.
 TEST(Window, TwoDegreesOfFreedomAreFilteredAndShaken) {
   Driver d(daemons(), 1280, 800);
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
+  d.open_example("throw");
   d.click("run");
   d.settle();
   d.click("tab Freedom");

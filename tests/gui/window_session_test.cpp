@@ -10,12 +10,6 @@
 namespace spacetime::test {
 namespace {
 
-void open_throw(Driver& d) {
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
-  d.settle();
-}
-
 // Down and up within one slow frame, and the mouse far away by then.
 TEST(Window, PressesWithinAFrameAreNotLost) {
   Driver d(daemons(), 960, 600);
@@ -70,7 +64,7 @@ TEST(Window, ANewSceneCanBeRunChangedAndIsNotLeftUnasked) {
 
 TEST(Window, AMistakeInADraftIsScrolledTo) {
   Driver d(daemons(), 960, 600);
-  open_throw(d);
+  d.open_example("throw");
   d.click("add new constraint");  // it has the keyboard at once
   d.frame(6);
   d.save_picture("draft-begun.png");

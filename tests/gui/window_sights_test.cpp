@@ -12,14 +12,8 @@
 namespace spacetime::test {
 namespace {
 
-void open(Driver& d, const std::string& text) {
-  d.hub().post(gui::OpenText{text});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
-  d.settle();
-}
-
 void open_throw(Driver& d, bool solved) {
-  open(d, read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene"));
+  d.open_example("throw");
   if (!solved) return;
   d.click("run");
   d.settle();
@@ -108,15 +102,15 @@ TEST(Window, TheCameraStaysWhateverBecomesOfTheMotion) {
   EXPECT_NE(d.screen().memory().scene.camera, opened);  // the ball flies further than the sketch says
   d.save_picture("sights-3-framed.png");
   const gui::Camera framed = d.screen().memory().scene.camera;
-  open(d, read_text(SPACETIME_SOURCE_DIR "/examples/acrobat_jump.scene"));
+  d.open(read_text(SPACETIME_SOURCE_DIR "/examples/acrobat_jump.scene"));
   EXPECT_NE(d.screen().memory().scene.camera, framed);
 }
 
 TEST(Window, AFigureThatLeavesTheViewIsToldOf) {
   Driver d(daemons());
-  open(d,
-       "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain here: x = 0 at 0\nconstrain away: x = 20 at "
-       "1\nminimize calm: integral(x''^2)\n");
+  d.open(
+      "time [0, 1]\ntrajectory bspline spans 8\ndof x\nconstrain here: x = 0 at 0\nconstrain away: x = 20 at "
+      "1\nminimize calm: integral(x''^2)\n");
   d.click("run");
   d.settle();
   d.frame(2);
@@ -208,7 +202,7 @@ TEST(Window, ToolsOfTheSelectionCoverNoneOfThem) {
 // An expression that wiggles faster than the samples of the whole: zoomed in, it is drawn as it is.
 TEST(Window, ExpressionsAreSampledWhereTheyAreLookedAt) {
   Driver d(daemons());
-  open(d, "time [0, 2]\ntrajectory bspline spans 8\ndof x = 1\nlet wave = x * sin(2000 * t)\n");
+  d.open("time [0, 2]\ntrajectory bspline spans 8\ndof x = 1\nlet wave = x * sin(2000 * t)\n");
   gui::Selection selection;
   selection.expressions = {"wave"};
   d.hub().post(gui::Select{selection});

@@ -118,7 +118,7 @@ TEST(Window, DrawsAndObeysWhileDaemonsAreSilent) {
       frames += 11;
     }
     EXPECT_EQ(d.screen().memory().scene.trails, handled % 2 == 0);  // every T was taken
-    EXPECT_LT(d.state().waiting, 100);
+    EXPECT_LE(d.state().waiting, symbolic_too ? 0 : handled);  // no F5 is taken twice, or without a scene
     if (symbolic_too) continue;
     EXPECT_TRUE(d.state().scene && d.state().scene->problem);
     d.key(GLFW_KEY_O, true);
@@ -251,9 +251,7 @@ TEST(Window, MakesAStripOfTheMotion) {
 // Tables show the question as it stands after an act, though the text declares nothing new.
 TEST(Window, TablesFollowTheActs) {
   Driver d(daemons(), 1280, 800);
-  d.hub().post(gui::OpenText{read_text(SPACETIME_SOURCE_DIR "/examples/throw.scene")});
-  d.until([](const gui::State& s) { return s.curves != nullptr; }, "the scene");
-  d.settle();
+  d.open_example("throw");
   const auto equation = [&](const std::string& name) {
     const auto& all = d.screen().memory().question.equations;
     return *std::ranges::find(all, name, &gui::Equation::name);
