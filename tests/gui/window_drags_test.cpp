@@ -21,12 +21,12 @@ TEST(Window, AControlPointThatIsUndoneIsHeldNoMore) {
   d.open_example("throw");
   const std::size_t before = controls_of(d.state(), "arm.elbow");
   act(d.hub(), "refine");
+  d.until([&](const gui::State& s) { return controls_of(s, "arm.elbow") > before; }, "the finer curve");
   gui::Selection selection;
   selection.dofs = {"arm.elbow"};
   d.hub().post(gui::Select{selection});
   d.frame(2);
   const std::size_t refined = controls_of(d.state(), "arm.elbow");
-  ASSERT_GT(refined, before);
   d.drag("control arm.elbow " + std::to_string(refined - 1), 0, -20, 4, false);
   ASSERT_EQ(d.screen().memory().curves.dragged, "arm.elbow");
   d.key(GLFW_KEY_Z, true);
