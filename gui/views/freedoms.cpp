@@ -41,7 +41,10 @@ void draw_bounds(Ui& ui, const Freedom& dof) {
 void draw_menu(Ui& ui, const Freedom& dof) {
   if (!ImGui::BeginPopupContextItem(("menu " + dof.name).c_str())) return;
   ImGui::TextDisabled("%s", dof.name.c_str());
-  if (ImGui::MenuItem("Refine", "refine")) ui.act("refine of " + dof.name);
+  if (ImGui::MenuItem("Refine", "refine")) {
+    const Problem& problem = *ui.state.scene->problem;
+    ui.act(refine_words(problem.start, problem.end, {dof.name}, 1).line);
+  }
   ui.control("refine dof", "Halves its knot spans: finer detail becomes possible; the motion stays as it is.");
   if (ImGui::MenuItem("Damp to 0.1 an iteration", "damp")) ui.act(damp_words(0.1, {dof.name}).line);
   ui.control("damp dof", "An iteration may change its coefficients by no more than this.");

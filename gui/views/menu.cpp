@@ -90,8 +90,9 @@ void draw_edit_menu(Ui& ui) {
     ui.act(filter_words(0.5).line);
   if (entry(ui, {"Shake all", nullptr, there}, "Disturb what is free, to find another motion."))
     ui.act("shake amplitude 0.1");
-  if (entry(ui, {"Refine all", nullptr, there}, "Halve the knot spans: the motion stays, and can become finer."))
-    ui.act("refine");
+  if (entry(ui, {"Refine all", nullptr, there && s.scene->problem},
+            "Halve the knot spans: the motion stays, and can become finer."))
+    ui.act(refine_words(s.scene->problem->start, s.scene->problem->end, {}, 1).line);
   if (entry(ui, {"Back to the declared start", nullptr, there}, "Begin again from the sketch of the scene."))
     ui.act(reset_words().line);
   ImGui::EndMenu();

@@ -20,7 +20,8 @@ TEST(Window, AControlPointThatIsUndoneIsHeldNoMore) {
   Driver d(daemons());
   d.open_example("throw");
   const std::size_t before = controls_of(d.state(), "arm.elbow");
-  act(d.hub(), "refine");
+  d.click("menu Edit");
+  d.click("menu Refine all");
   d.until([&](const gui::State& s) { return controls_of(s, "arm.elbow") > before; }, "the finer curve");
   gui::Selection selection;
   selection.dofs = {"arm.elbow"};
