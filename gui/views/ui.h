@@ -111,7 +111,7 @@ struct Leaving {
   std::string file{};
   enum class Stage {
     asking,
-    naming,  // the file that it is to be saved in
+    naming,    // the file that it is to be saved in
     stopping,  // the run, whose outcome is to be saved
     saving,    // goes on when that is done
   } stage = Stage::asking;
