@@ -3,6 +3,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace spacetime::gui {
@@ -19,13 +20,13 @@ void Input::key(int glfw_key, bool down, int glfw_modifiers) {
 
 void Input::character(unsigned code) { changes_.push_back({Change::Kind::character, static_cast<int>(code)}); }
 
-namespace {
-
-bool makes_letter(int key, int modifiers) {
-  return key < GLFW_KEY_ESCAPE && (modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0;
+bool Input::makes_letter(const Change& key) const {
+  constexpr std::array others{GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_KEY_LEFT_ALT,
+                              GLFW_KEY_RIGHT_ALT,    GLFW_KEY_LEFT_SUPER,    GLFW_KEY_RIGHT_SUPER};
+  const auto held = [&](int other) { return keys_[static_cast<std::size_t>(other)]; };
+  return key.which < GLFW_KEY_ESCAPE && (key.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER)) == 0 &&
+         std::ranges::none_of(others, held);
 }
-
-}  // namespace
 
 void Input::give(ImGuiIO& io, const ImVec2& mouse) {
   std::vector<Change> given;
@@ -35,8 +36,7 @@ void Input::give(ImGuiIO& io, const ImVec2& mouse) {
     const Change& next = changes_.front();
     const bool key = next.kind == Change::Kind::key, button = next.kind == Change::Kind::button;
     // A text field wants the letters alone; with their keys one could not type faster than frames are drawn.
-    const bool only_letter = key && io.WantTextInput && makes_letter(next.which, next.modifiers);
-    if (only_letter && !keys_[static_cast<std::size_t>(next.which)]) continue;
+    if (key && io.WantTextInput && makes_letter(next) && !keys_[static_cast<std::size_t>(next.which)]) continue;
     // ImGui takes what is typed in a frame before the keys that were pressed in it.
     const auto stands_before = [&](const Change& one) {
       if (!key && !button) return one.kind == Change::Kind::key && one.down;

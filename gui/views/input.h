@@ -30,6 +30,7 @@ class Input {
     ImVec2 at{};
     int modifiers = 0;
   };
+  bool makes_letter(const Change& key) const;  // and nothing else
   std::deque<Change> changes_;
   std::array<bool, IM_ARRAYSIZE(ImGuiIO::MouseDown)> buttons_{};
   std::array<bool, IM_ARRAYSIZE(ImGuiIO::KeysDown)> keys_{};

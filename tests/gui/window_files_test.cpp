@@ -44,8 +44,9 @@ TEST(Window, AFilmWithoutAFolderForItsFilesIsToldOf) {
   d.open_example("double_integrator");
   const char* set = std::getenv("TMPDIR");
   const std::optional<std::string> before = set ? std::optional<std::string>(set) : std::nullopt;
+  const std::string film = scratch("window_files_film") + ".png";
   ::setenv("TMPDIR", "/proc/nothing", 1);
-  d.hub().post(gui::Film{scratch("window_files_film") + ".png", 12});
+  d.hub().post(gui::Film{film, 12});
   d.frame(2);
   d.until([](const gui::State& s) { return !s.film; }, "an end of the film");
   if (before)
