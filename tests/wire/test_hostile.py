@@ -262,7 +262,7 @@ class Limits(unittest.TestCase):
                     self.assertEqual("result" in answer, most == made, answer)
 
     def test_an_idle_session_ends_and_a_busy_one_does_not(self):
-        with peer.Daemon("optimizer", "unix", ["--limit-idle", "0.3"]) as daemon:
+        with peer.Daemon("optimizer", "unix", ["--limit-idle", "0.9"]) as daemon:
             idle, stopped = daemon.connect(), daemon.connect()
             idle.greet()
             stopped.greet()
@@ -274,7 +274,7 @@ class Limits(unittest.TestCase):
                 sentences.append(told[0]["error"]["message"])
                 each.close()
             self.assertRegex(sentences[0], "without a request")
-            self.assertRegex(sentences[1], "half-way, after 10 bytes, .* for 0.3 seconds")
+            self.assertRegex(sentences[1], "half-way, after 10 bytes, .* for 0.9 seconds")
 
     def test_what_the_end_of_the_input_cuts_short_is_told(self):
         asked = b'{"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"protocol": 1}}'
