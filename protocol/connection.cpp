@@ -76,6 +76,7 @@ void Connection::read() {
     return;
   }
   stream_->read_some(block_, [self = shared_from_this()](boost::system::error_code error, std::size_t bytes) {
+    if (self->gone_) return;  // parting ends the read, and must not cut what was written before it
     if (!error) return self->take({self->block_.data(), bytes});
     if (!self->conversation_) {
       self->reading_ends_ = true;

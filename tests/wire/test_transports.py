@@ -22,6 +22,14 @@ class Sockets(unittest.TestCase):
         return subprocess.Popen([peer.path_of("symbolic"), "serve", "--listen", "unix:" + path], stdin=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE, text=True)
 
+    def test_the_last_answers_reach_standard_output(self):
+        """A daemon that ends at once, many times: what it said last may still be on its way."""
+        asked = b"".join(b'{"jsonrpc": "2.0", "id": %d, "method": "%s"%s}\n' % one for one in (
+            (1, b"initialize", b', "params": {"protocol": 1}'), (2, b"shutdown", b""), (3, b"exit", b"")))
+        for _ in range(150):
+            ended = subprocess.run([peer.path_of("symbolic"), "serve"], input=asked, stdout=subprocess.PIPE, timeout=60)
+            self.assertEqual((ended.returncode, ended.stdout.count(b"\n")), (0, 3))
+
     def test_a_unix_socket_is_private_and_does_not_stay_behind(self):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "socket")
